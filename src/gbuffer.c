@@ -1,0 +1,12 @@
+#include "gbuffer.h"
+
+void gbuffer_free(struct gbuffer *gbuffer)
+{
+    image_free(&gbuffer->base);
+    image_free(&gbuffer->specular);
+    image_free(&gbuffer->reflectance);
+    image_free(&gbuffer->position);
+    image_free(&gbuffer->endpoint);
+    image_free(&gbuffer->phong);
+    *gbuffer = (struct gbuffer){0};
+}

@@ -1,0 +1,30 @@
+/* Everything the filter knows of a picture: the passes, as planes of floats of one size.
+ *
+ * The paper's names: position is a, endpoint is b, specular is L0.
+ */
+#ifndef POVGLOSS_GBUFFER_H
+#define POVGLOSS_GBUFFER_H
+
+#include "image.h"
+
+#include <stdbool.h>
+
+struct gbuffer {
+    struct image base;        /* R G B, linear: the picture without the glossy reflection; may be empty (black) */
+    struct image specular;    /* R G B, linear: L0, radiance along the ideal mirror direction */
+    struct image reflectance; /* R G B: reflectivity times coverage; may be empty (1 where glossy) */
+    struct image position;    /* X Y Z: a, world units */
+    struct image endpoint;    /* X Y Z W: b, homogeneous; W = 0 is a direction */
+    struct image phong;       /* 1 channel: Phong exponent; 0 (or less, or NaN) not glossy, infinity a mirror; may be empty
+                                 (the filter's exponent applies wherever the endpoint is not all zero) */
+    bool has_eye;
+    float eye[3];       /* world units; without it the footprint comes from the gradient of the direction field */
+    float view_angle;   /* horizontal, radians; 0: unknown */
+    float working_gamma; /* exponent of the space in which the renderer added its terms (POV-Ray's assumed_gamma);
+                            0 or 1: linear */
+};
+
+/* Frees all planes and clears the rest. */
+void gbuffer_free(struct gbuffer *gbuffer);
+
+#endif
