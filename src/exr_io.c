@@ -1,0 +1,505 @@
+/* OpenEXR files as named planes of floats, by OpenEXRCore.
+ *
+ * Both directions go through memory: OpenEXRCore reads and writes at offsets, which a pipe can't do, and what it writes
+ * then goes out through output_file. What OpenEXRCore 3.1 decodes wrongly or not at all (B44, DWA) is refused.
+ */
+#include "exr_io.h"
+
+#include "input_file.h"
+#include "output_file.h"
+
+#include <assert.h>
+#include <openexr.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_CHANNELS = 1024, MAX_JOINS = 64, SHORT_NAME_LENGTH = 31 };
+
+static const char eye_name[] = "povgloss:eye";
+static const char view_angle_name[] = "povgloss:viewAngle";
+static const char working_gamma_name[] = "povgloss:workingGamma";
+static const char version_name[] = "povgloss:version";
+
+/* OpenEXRCore's own handler prints; the result codes say enough. */
+static void ignore_message(exr_const_context_t context, exr_result_t code, const char *message)
+{
+    (void)context, (void)code, (void)message;
+}
+
+static int64_t memory_read(exr_const_context_t context, void *user_data, void *buffer, uint64_t size, uint64_t offset,
+                           exr_stream_error_func_ptr_t error_callback)
+{
+    (void)context, (void)error_callback;
+    const struct input_file *file = user_data;
+    if (offset >= file->size)
+        return 0;
+    if (size > file->size - offset)
+        size = file->size - offset;
+    memcpy(buffer, file->data + offset, size);
+    return (int64_t)size;
+}
+
+static int64_t memory_size(exr_const_context_t context, void *user_data)
+{
+    (void)context;
+    const struct input_file *file = user_data;
+    return (int64_t)file->size;
+}
+
+/* A file that is being read. */
+struct reader {
+    exr_context_t context;
+    const char *name; /* for messages */
+    bool tiled;
+    int left, top, width, height;    /* the data window */
+    int32_t block_width, block_height; /* of a tile, or of a chunk of scanlines */
+};
+
+static enum result damaged(const struct reader *reader, exr_result_t code, struct error *err)
+{
+    return error_set(err, RESULT_DATA, "%s: the OpenEXR file is damaged or cut short (%s)", reader->name,
+                     exr_get_default_error_message(code));
+}
+
+static enum result check_compression(const struct reader *reader, struct error *err)
+{
+    exr_compression_t compression;
+    exr_result_t code = exr_get_compression(reader->context, 0, &compression);
+    if (code)
+        return damaged(reader, code, err);
+    const char *refused = NULL;
+    switch (compression) {
+    case EXR_COMPRESSION_NONE:
+    case EXR_COMPRESSION_RLE:
+    case EXR_COMPRESSION_ZIPS:
+    case EXR_COMPRESSION_ZIP:
+    case EXR_COMPRESSION_PIZ:
+    case EXR_COMPRESSION_PXR24: break;
+    case EXR_COMPRESSION_B44: refused = "B44"; break;
+    case EXR_COMPRESSION_B44A: refused = "B44A"; break;
+    case EXR_COMPRESSION_DWAA: refused = "DWAA"; break;
+    case EXR_COMPRESSION_DWAB: refused = "DWAB"; break;
+    default: refused = "of an unknown kind";
+    }
+    if (refused)
+        return error_set(err, RESULT_DATA,
+                         "%s: its compression is %s, which is not supported; convert it: "
+                         "oiiotool in.exr --compression zip -o out.exr",
+                         reader->name, refused);
+    return RESULT_OK;
+}
+
+static enum result check_parts(const struct reader *reader, struct error *err)
+{
+    int parts;
+    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
+    exr_result_t code = exr_get_count(reader->context, &parts);
+    if (!code)
+        code = exr_get_storage(reader->context, 0, &storage);
+    if (code)
+        return damaged(reader, code, err);
+    if (parts > 1) {
+        static const char join[] = " --chappend";
+        char joins[sizeof join * MAX_JOINS] = "";
+        for (int i = 1; i < parts && i < MAX_JOINS; i++)
+            strcat(joins, join);
+        return error_set(err, RESULT_DATA,
+                         "%s: has %d parts, and only one is read; join them: "
+                         "oiiotool in.exr --sisplit%s --compression zip -o out.exr",
+                         reader->name, parts, joins);
+    }
+    if (storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED)
+        return error_set(err, RESULT_DATA,
+                         "%s: holds deep data; flatten it: oiiotool in.exr --flatten --compression zip -o out.exr",
+                         reader->name);
+    return RESULT_OK;
+}
+
+/* Size, place and kind of the blocks. */
+static enum result read_geometry(struct reader *reader, struct error *err)
+{
+    exr_attr_box2i_t window;
+    exr_storage_t storage;
+    exr_result_t code = exr_get_data_window(reader->context, 0, &window);
+    if (!code)
+        code = exr_get_storage(reader->context, 0, &storage);
+    if (code)
+        return damaged(reader, code, err);
+    int64_t width = (int64_t)window.max.x - window.min.x + 1;
+    int64_t height = (int64_t)window.max.y - window.min.y + 1;
+    if (width < 1 || height < 1 || width > IMAGE_MAX_SIDE || height > IMAGE_MAX_SIDE)
+        return error_set(err, RESULT_DATA, "%s: an image of %lld x %lld pixels: each side must be from 1 to %d",
+                         reader->name, (long long)width, (long long)height, IMAGE_MAX_SIDE);
+    reader->left = window.min.x;
+    reader->top = window.min.y;
+    reader->width = (int)width;
+    reader->height = (int)height;
+    reader->tiled = storage == EXR_STORAGE_TILED;
+    reader->block_width = reader->width;
+    code = reader->tiled
+               ? exr_get_tile_sizes(reader->context, 0, 0, 0, &reader->block_width, &reader->block_height)
+               : exr_get_scanlines_per_chunk(reader->context, 0, &reader->block_height);
+    if (!code && (reader->block_width < 1 || reader->block_height < 1))
+        code = EXR_ERR_INVALID_ATTR;
+    return code ? damaged(reader, code, err) : RESULT_OK;
+}
+
+/* Names of the channels; the image's memory is checked before anything is allocated. */
+static enum result read_channel_list(const struct reader *reader, struct exr_contents *contents, int *channel_count,
+                                     struct error *err)
+{
+    const exr_attr_chlist_t *list;
+    exr_result_t code = exr_get_channels(reader->context, 0, &list);
+    if (code)
+        return damaged(reader, code, err);
+    int channels = list->num_channels;
+    if (channels < 1 || channels > MAX_CHANNELS)
+        return error_set(err, RESULT_DATA, "%s: has %d channels; from 1 to %d are read", reader->name,
+                         channels, MAX_CHANNELS);
+    double bytes = (double)sizeof(float) * reader->width * reader->height * channels;
+    if (bytes > input_memory_limit())
+        return error_set(err, RESULT_DATA,
+                         "%s: %d x %d pixels of %d channels take %.1f GB, more than half of this machine's memory; "
+                         "write fewer channels or a smaller image",
+                         reader->name, reader->width, reader->height, channels, bytes / 1e9);
+    for (int i = 0; i < channels; i++) {
+        const exr_attr_chlist_entry_t *entry = &list->entries[i];
+        if (entry->x_sampling != 1 || entry->y_sampling != 1)
+            return error_set(err, RESULT_DATA,
+                             "%s: channel %s is subsampled (%d x %d), which is not supported; "
+                             "write it at full resolution",
+                             reader->name, entry->name.str, entry->x_sampling, entry->y_sampling);
+        if (entry->name.length < 1 || entry->name.length >= EXR_NAME_SIZE)
+            return damaged(reader, EXR_ERR_NAME_TOO_LONG, err);
+    }
+    contents->names = calloc((size_t)channels, sizeof *contents->names);
+    if (!contents->names)
+        return error_memory(err, (double)channels * (double)sizeof *contents->names);
+    for (int i = 0; i < channels; i++)
+        memcpy(contents->names[i], list->entries[i].name.str, (size_t)list->entries[i].name.length);
+    *channel_count = channels;
+    return RESULT_OK;
+}
+
+/* The chunk whose first pixel is (x, y) of the image, and checks of it that OpenEXRCore 3.1 leaves out. */
+static exr_result_t find_chunk(const struct reader *reader, int x, int y, exr_chunk_info_t *chunk)
+{
+    exr_result_t code = reader->tiled ? exr_read_tile_chunk_info(reader->context, 0, x / reader->block_width,
+                                                                 y / reader->block_height, 0, 0, chunk)
+                                      : exr_read_scanline_chunk_info(reader->context, 0, reader->top + y, chunk);
+    if (code)
+        return code;
+    if (chunk->width < 1 || chunk->height < 1 || chunk->width > reader->width - x ||
+        chunk->height > reader->height - y || chunk->packed_size > chunk->unpacked_size ||
+        (chunk->compression == EXR_COMPRESSION_NONE && chunk->packed_size != chunk->unpacked_size))
+        return EXR_ERR_CORRUPT_CHUNK;
+    return EXR_ERR_SUCCESS;
+}
+
+/* Decodes one block into the image. */
+static exr_result_t decode_block(const struct reader *reader, struct exr_contents *contents, int x, int y,
+                                 exr_decode_pipeline_t *pipeline)
+{
+    exr_chunk_info_t chunk;
+    exr_result_t code = find_chunk(reader, x, y, &chunk);
+    bool first = !pipeline->channels;
+    if (!code)
+        code = first ? exr_decoding_initialize(reader->context, 0, &chunk, pipeline)
+                     : exr_decoding_update(reader->context, 0, &chunk, pipeline);
+    if (code)
+        return code;
+    /* The pipeline sorts its channels by name, and forgets the pointers with every chunk. */
+    for (int i = 0; i < pipeline->channel_count; i++) {
+        exr_coding_channel_info_t *to = &pipeline->channels[i];
+        int plane = exr_find(contents, to->channel_name);
+        assert(plane >= 0);
+        to->decode_to_ptr = (uint8_t *)(image_row(&contents->image, plane, y) + x);
+        to->user_data_type = EXR_PIXEL_FLOAT;
+        to->user_bytes_per_element = sizeof(float);
+        to->user_pixel_stride = sizeof(float);
+        to->user_line_stride = (int32_t)(contents->image.stride * sizeof(float));
+    }
+    if (first)
+        code = exr_decoding_choose_default_routines(reader->context, 0, pipeline);
+    return code ? code : exr_decoding_run(reader->context, 0, pipeline);
+}
+
+static enum result read_pixels(const struct reader *reader, struct exr_contents *contents, int channel_count,
+                               struct error *err)
+{
+    exr_chunk_info_t chunk;
+    exr_result_t code = EXR_ERR_SUCCESS;
+
+    /* Before any memory is taken for the image: a short file that claims to be huge ends here. */
+    for (int y = 0; y < reader->height && !code; y += reader->block_height)
+        for (int x = 0; x < reader->width && !code; x += reader->block_width)
+            code = find_chunk(reader, x, y, &chunk);
+    if (code)
+        return damaged(reader, code, err);
+    enum result result = image_alloc(&contents->image, reader->width, reader->height, channel_count, err);
+    if (result)
+        return result;
+
+    exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
+    for (int y = 0; y < reader->height && !code; y += reader->block_height)
+        for (int x = 0; x < reader->width && !code; x += reader->block_width)
+            code = decode_block(reader, contents, x, y, &pipeline);
+    exr_decoding_destroy(reader->context, &pipeline);
+    return code ? damaged(reader, code, err) : RESULT_OK;
+}
+
+/* An attribute that is there with another type is refused: leaving it out would silently change the picture. */
+static enum result attribute_result(const struct reader *reader, const char *attribute, const char *type,
+                                    exr_result_t code, bool *found, struct error *err)
+{
+    *found = code == EXR_ERR_SUCCESS;
+    if (!code || code == EXR_ERR_NO_ATTR_BY_NAME)
+        return RESULT_OK;
+    return error_set(err, RESULT_DATA, "%s: attribute %s must be a %s", reader->name, attribute, type);
+}
+
+static enum result read_float_attribute(const struct reader *reader, const char *attribute, float *value,
+                                        struct error *err)
+{
+    bool found;
+    float stored = 0;
+    exr_result_t code = exr_attr_get_float(reader->context, 0, attribute, &stored);
+    enum result result = attribute_result(reader, attribute, "float", code, &found, err);
+    *value = found ? stored : 0;
+    return result;
+}
+
+static enum result read_attributes(const struct reader *reader, struct exr_attributes *attributes, struct error *err)
+{
+    exr_attr_v3f_t eye;
+    exr_result_t code = exr_attr_get_v3f(reader->context, 0, eye_name, &eye);
+    enum result result = attribute_result(reader, eye_name, "v3f", code, &attributes->has_eye, err);
+    if (result)
+        return result;
+    if (attributes->has_eye)
+        memcpy(attributes->eye, eye.arr, sizeof attributes->eye);
+    result = read_float_attribute(reader, view_angle_name, &attributes->view_angle, err);
+    if (result)
+        return result;
+    return read_float_attribute(reader, working_gamma_name, &attributes->working_gamma, err);
+}
+
+enum result exr_read(const char *path, struct exr_contents *contents, struct error *err)
+{
+    static const unsigned char magic[4] = {0x76, 0x2f, 0x31, 0x01};
+    struct input_file file;
+    struct reader reader = {.name = input_file_name(path)};
+    int channel_count = 0;
+    *contents = (struct exr_contents){0};
+    enum result result = input_file_read(path, &file, err);
+    if (result)
+        return result;
+
+    if (file.size < sizeof magic || memcmp(file.data, magic, sizeof magic) != 0) {
+        result = error_set(err, RESULT_DATA, "%s: %s", reader.name,
+                           file.size == 0 ? "is empty" : "not an OpenEXR file");
+        goto out;
+    }
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    initializer.error_handler_fn = ignore_message;
+    initializer.user_data = &file;
+    initializer.read_fn = memory_read;
+    initializer.size_fn = memory_size;
+    initializer.max_image_width = initializer.max_image_height = IMAGE_MAX_SIDE;
+    initializer.max_tile_width = initializer.max_tile_height = IMAGE_MAX_SIDE;
+    initializer.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    exr_result_t code = exr_start_read(&reader.context, reader.name, &initializer);
+    if (code) {
+        result = error_set(err, RESULT_DATA,
+                           "%s: the OpenEXR header is damaged, cut short or of an image of more than %d pixels a side "
+                           "(%s)",
+                           reader.name, IMAGE_MAX_SIDE, exr_get_default_error_message(code));
+        goto out;
+    }
+    if ((result = check_parts(&reader, err)) || (result = check_compression(&reader, err)) ||
+        (result = read_geometry(&reader, err)) || (result = read_channel_list(&reader, contents, &channel_count, err)) ||
+        (result = read_attributes(&reader, &contents->attributes, err)) ||
+        (result = read_pixels(&reader, contents, channel_count, err)))
+        goto out;
+out:
+    exr_finish(&reader.context);
+    input_file_free(&file);
+    if (result)
+        exr_contents_free(contents);
+    return result;
+}
+
+void exr_contents_free(struct exr_contents *contents)
+{
+    image_free(&contents->image);
+    free(contents->names);
+    *contents = (struct exr_contents){0};
+}
+
+int exr_find(const struct exr_contents *contents, const char *name)
+{
+    for (int i = 0; i < contents->image.channels; i++)
+        if (strcmp(contents->names[i], name) == 0)
+            return i;
+    return -1;
+}
+
+/* The bytes of a file that is being written. */
+struct memory_file {
+    unsigned char *data;
+    size_t size, capacity;
+};
+
+static int64_t memory_write(exr_const_context_t context, void *user_data, const void *buffer, uint64_t size,
+                            uint64_t offset, exr_stream_error_func_ptr_t error_callback)
+{
+    (void)context, (void)error_callback;
+    struct memory_file *file = user_data;
+    size_t end = offset + size;
+    if (end > file->capacity) {
+        size_t capacity = end > 2 * file->capacity ? end : 2 * file->capacity;
+        unsigned char *larger = realloc(file->data, capacity);
+        if (!larger)
+            return -1;
+        file->data = larger;
+        file->capacity = capacity;
+    }
+    if (offset > file->size)
+        memset(file->data + file->size, 0, offset - file->size);
+    memcpy(file->data + offset, buffer, size);
+    if (end > file->size)
+        file->size = end;
+    return (int64_t)size;
+}
+
+static exr_result_t write_attributes(exr_context_t context, int part, const struct exr_attributes *attributes)
+{
+    exr_result_t code = exr_attr_set_string(context, part, version_name, POVGLOSS_VERSION);
+    if (!attributes)
+        return code;
+    if (!code && attributes->has_eye) {
+        exr_attr_v3f_t eye;
+        memcpy(eye.arr, attributes->eye, sizeof eye.arr);
+        code = exr_attr_set_v3f(context, part, eye_name, &eye);
+    }
+    if (!code && attributes->view_angle != 0)
+        code = exr_attr_set_float(context, part, view_angle_name, attributes->view_angle);
+    if (!code && attributes->working_gamma != 0)
+        code = exr_attr_set_float(context, part, working_gamma_name, attributes->working_gamma);
+    return code;
+}
+
+static exr_result_t write_header(exr_context_t context, int part, const struct exr_channel *channels,
+                                 int channel_count, const struct exr_attributes *attributes)
+{
+    const struct image *image = channels[0].image;
+    exr_result_t code =
+        exr_initialize_required_attr_simple(context, part, image->width, image->height, EXR_COMPRESSION_ZIP);
+    for (int i = 0; i < channel_count && !code; i++)
+        code = exr_add_channel(context, part, channels[i].name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    if (!code)
+        code = write_attributes(context, part, attributes);
+    return code ? code : exr_write_header(context);
+}
+
+static const struct exr_channel *channel_named(const struct exr_channel *channels, int channel_count,
+                                               const char *name)
+{
+    for (int i = 0; i < channel_count; i++)
+        if (strcmp(channels[i].name, name) == 0)
+            return &channels[i];
+    assert(!"the pipeline has the channels of the header");
+    return NULL;
+}
+
+static exr_result_t write_pixels(exr_context_t context, int part, const struct exr_channel *channels,
+                                 int channel_count)
+{
+    exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+    int32_t lines;
+    exr_result_t code = exr_get_scanlines_per_chunk(context, part, &lines);
+    for (int y = 0; !code && y < channels[0].image->height; y += lines) {
+        exr_chunk_info_t chunk;
+        code = exr_write_scanline_chunk_info(context, part, y, &chunk);
+        if (!code)
+            code = y == 0 ? exr_encoding_initialize(context, part, &chunk, &pipeline)
+                          : exr_encoding_update(context, part, &chunk, &pipeline);
+        /* The pipeline sorts its channels by name, and forgets the pointers with every chunk. */
+        for (int i = 0; !code && i < pipeline.channel_count; i++) {
+            exr_coding_channel_info_t *to = &pipeline.channels[i];
+            const struct exr_channel *from = channel_named(channels, channel_count, to->channel_name);
+            to->encode_from_ptr = (const uint8_t *)image_row(from->image, from->channel, y);
+            to->user_data_type = EXR_PIXEL_FLOAT;
+            to->user_bytes_per_element = sizeof(float);
+            to->user_pixel_stride = sizeof(float);
+            to->user_line_stride = (int32_t)(from->image->stride * sizeof(float));
+        }
+        if (!code && y == 0)
+            code = exr_encoding_choose_default_routines(context, part, &pipeline);
+        if (!code)
+            code = exr_encoding_run(context, part, &pipeline);
+    }
+    exr_encoding_destroy(context, &pipeline);
+    return code;
+}
+
+/* The whole file, in memory. */
+static exr_result_t encode(struct memory_file *file, const struct exr_channel *channels, int channel_count,
+                           const struct exr_attributes *attributes)
+{
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    initializer.error_handler_fn = ignore_message;
+    initializer.user_data = file;
+    initializer.write_fn = memory_write;
+    exr_context_t context;
+    exr_result_t code = exr_start_write(&context, "memory", EXR_WRITE_FILE_DIRECTLY, &initializer);
+    if (code)
+        return code;
+
+    bool long_names = false;
+    for (int i = 0; i < channel_count; i++)
+        long_names |= strlen(channels[i].name) > SHORT_NAME_LENGTH;
+    if (long_names)
+        code = exr_set_longname_support(context, 1);
+    int part = 0;
+    if (!code)
+        code = exr_add_part(context, NULL, EXR_STORAGE_SCANLINE, &part);
+    if (!code)
+        code = write_header(context, part, channels, channel_count, attributes);
+    if (!code)
+        code = write_pixels(context, part, channels, channel_count);
+    exr_result_t finished = exr_finish(&context);
+    return code ? code : finished;
+}
+
+enum result exr_write(const char *path, const struct exr_channel *channels, int channel_count,
+                      const struct exr_attributes *attributes, struct error *err)
+{
+    assert(channel_count > 0);
+    for (int i = 0; i < channel_count; i++)
+        assert(channels[i].image->width == channels[0].image->width &&
+               channels[i].image->height == channels[0].image->height &&
+               channels[i].channel < channels[i].image->channels);
+
+    /* Opened first: a folder that can't be written to is told before the work of compressing. */
+    struct output_file output;
+    struct memory_file file = {0};
+    enum result result = output_file_open(&output, path, err);
+    if (result)
+        return result;
+    exr_result_t code = encode(&file, channels, channel_count, attributes);
+    if (code) {
+        result = error_set(err, RESULT_DATA, "%s: the OpenEXR file cannot be made (%s)", output_file_name(path),
+                           exr_get_default_error_message(code));
+        goto out;
+    }
+    result = output_file_write(&output, file.data, file.size, err);
+    if (result)
+        goto out;
+    result = output_file_commit(&output, err);
+out:
+    output_file_abort(&output);
+    free(file.data);
+    return result;
+}

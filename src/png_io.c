@@ -1,0 +1,238 @@
+/* PNG files as planes of floats, by libpng.
+ *
+ * libpng reports an error by a call that must not return, so reading and writing each have one function with a setjmp.
+ * Everything that it changes and that is needed after the jump lives in a struct behind a pointer, never in a local
+ * variable, which a longjmp may leave with an old value.
+ */
+#include "png_io.h"
+
+#include "input_file.h"
+#include "output_file.h"
+
+#include <assert.h>
+#include <math.h>
+#include <png.h>
+#include <setjmp.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A PNG that is being read or written. */
+struct codec {
+    jmp_buf failed;
+    char message[256]; /* libpng's, valid after the jump */
+    png_structp png;
+    png_infop info;
+    /* reading */
+    struct input_file input;
+    size_t position; /* in input */
+    int width, height, bits;
+    size_t row_bytes;
+    png_bytep pixels; /* height rows of RGB */
+    png_bytepp rows;
+    /* writing */
+    struct output_file output;
+    enum result result; /* of the output, its message in *err */
+    struct error *err;
+};
+
+static PNG_NORETURN void on_error(png_structp png, png_const_charp message)
+{
+    struct codec *codec = png_get_error_ptr(png);
+    snprintf(codec->message, sizeof codec->message, "%s", message);
+    longjmp(codec->failed, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp message)
+{
+    (void)png, (void)message;
+}
+
+static void read_bytes(png_structp png, png_bytep buffer, size_t size)
+{
+    struct codec *codec = png_get_io_ptr(png);
+    if (size > codec->input.size - codec->position)
+        png_error(png, "the file ends too early");
+    memcpy(buffer, codec->input.data + codec->position, size);
+    codec->position += size;
+}
+
+/* Decodes into codec->pixels. False: libpng failed, codec->message says why; true with no pixels: too large. */
+static bool decode(struct codec *codec)
+{
+    if (setjmp(codec->failed))
+        return false;
+    codec->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, codec, on_error, on_warning);
+    codec->info = codec->png ? png_create_info_struct(codec->png) : NULL;
+    if (!codec->info) {
+        snprintf(codec->message, sizeof codec->message, "libpng cannot be started");
+        return false;
+    }
+    png_set_user_limits(codec->png, IMAGE_MAX_SIDE, IMAGE_MAX_SIDE);
+    png_set_read_fn(codec->png, codec, read_bytes);
+    png_read_info(codec->png, codec->info);
+    png_set_palette_to_rgb(codec->png);
+    png_set_expand_gray_1_2_4_to_8(codec->png);
+    png_set_gray_to_rgb(codec->png);
+    png_set_strip_alpha(codec->png);
+    png_set_interlace_handling(codec->png);
+    png_read_update_info(codec->png, codec->info);
+
+    codec->width = (int)png_get_image_width(codec->png, codec->info);
+    codec->height = (int)png_get_image_height(codec->png, codec->info);
+    codec->bits = png_get_bit_depth(codec->png, codec->info);
+    codec->row_bytes = png_get_rowbytes(codec->png, codec->info);
+    assert(png_get_channels(codec->png, codec->info) == 3);
+    /* The planes of floats take at most four times as much again. */
+    if (5.0 * (double)codec->row_bytes * codec->height > input_memory_limit())
+        return true;
+    codec->pixels = malloc(codec->row_bytes * (size_t)codec->height);
+    codec->rows = malloc(sizeof *codec->rows * (size_t)codec->height);
+    if (!codec->pixels || !codec->rows)
+        png_error(codec->png, "out of memory");
+    for (int y = 0; y < codec->height; y++)
+        codec->rows[y] = codec->pixels + (size_t)y * codec->row_bytes;
+    png_read_image(codec->png, codec->rows);
+    png_read_end(codec->png, NULL);
+    return true;
+}
+
+/* Code values to floats. */
+static void unpack(const struct codec *codec, struct image *image)
+{
+    for (int channel = 0; channel < 3; channel++) {
+        for (int y = 0; y < codec->height; y++) {
+            const unsigned char *from = codec->rows[y];
+            float *to = image_row(image, channel, y);
+            for (int x = 0; x < codec->width; x++) {
+                int sample = 3 * x + channel;
+                to[x] = codec->bits == 16 ? (float)(from[2 * sample] << 8 | from[2 * sample + 1]) / 65535.0f
+                                          : (float)from[sample] / 255.0f;
+            }
+        }
+    }
+}
+
+enum result png_read(const char *path, struct image *image, struct error *err)
+{
+    const char *name = input_file_name(path);
+    struct codec codec = {0};
+    *image = (struct image){0};
+    enum result result = input_file_read(path, &codec.input, err);
+    if (result)
+        return result;
+
+    if (codec.input.size < 8 || png_sig_cmp(codec.input.data, 0, 8) != 0) {
+        result = error_set(err, RESULT_DATA, "%s: %s", name, codec.input.size == 0 ? "is empty" : "not a PNG file");
+        goto out;
+    }
+    if (!decode(&codec)) {
+        result = error_set(err, RESULT_DATA, "%s: the PNG file is damaged, cut short or too large (%s)", name,
+                           codec.message);
+        goto out;
+    }
+    if (!codec.pixels) {
+        result = error_set(err, RESULT_DATA, "%s: %d x %d pixels take more than half of this machine's memory", name,
+                           codec.width, codec.height);
+        goto out;
+    }
+    result = image_alloc(image, codec.width, codec.height, 3, err);
+    if (result)
+        goto out;
+    unpack(&codec, image);
+out:
+    png_destroy_read_struct(&codec.png, &codec.info, NULL);
+    free(codec.rows);
+    free(codec.pixels);
+    input_file_free(&codec.input);
+    return result;
+}
+
+/* The code of a linear value on the sRGB transfer curve (IEC 61966-2-1), to the nearest. */
+static unsigned srgb_code(float linear, float largest)
+{
+    if (!(linear > 0))
+        return 0;
+    if (linear >= 1)
+        return (unsigned)largest;
+    float encoded = linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1 / 2.4f) - 0.055f;
+    return (unsigned)(encoded * largest + 0.5f);
+}
+
+static void write_bytes(png_structp png, png_bytep data, size_t size)
+{
+    struct codec *codec = png_get_io_ptr(png);
+    codec->result = output_file_write(&codec->output, data, size, codec->err);
+    if (codec->result)
+        png_error(png, codec->err->text);
+}
+
+static void flush_bytes(png_structp png)
+{
+    (void)png;
+}
+
+/* Encodes into codec->output. False: libpng or the output failed. */
+static bool encode(struct codec *codec, const struct image *image)
+{
+    if (setjmp(codec->failed))
+        return false;
+    codec->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, codec, on_error, on_warning);
+    codec->info = codec->png ? png_create_info_struct(codec->png) : NULL;
+    if (!codec->info) {
+        snprintf(codec->message, sizeof codec->message, "libpng cannot be started");
+        return false;
+    }
+    png_set_write_fn(codec->png, codec, write_bytes, flush_bytes);
+    png_set_IHDR(codec->png, codec->info, (png_uint_32)image->width, (png_uint_32)image->height, codec->bits,
+                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB_gAMA_and_cHRM(codec->png, codec->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(codec->png, codec->info);
+    for (int y = 0; y < image->height; y++) {
+        for (int channel = 0; channel < 3; channel++) {
+            const float *from = image_row(image, channel, y);
+            for (int x = 0; x < image->width; x++) {
+                int sample = 3 * x + channel;
+                unsigned code = srgb_code(from[x], codec->bits == 16 ? 65535.0f : 255.0f);
+                if (codec->bits == 16) {
+                    codec->pixels[2 * sample] = (png_byte)(code >> 8);
+                    codec->pixels[2 * sample + 1] = (png_byte)(code & 255);
+                } else {
+                    codec->pixels[sample] = (png_byte)code;
+                }
+            }
+        }
+        png_write_row(codec->png, codec->pixels);
+    }
+    png_write_end(codec->png, codec->info);
+    return true;
+}
+
+enum result png_write_srgb(const char *path, const struct image *image, int bits, struct error *err)
+{
+    assert((bits == 8 || bits == 16) && image->channels >= 3);
+    struct codec codec = {.bits = bits, .err = err};
+    enum result result = output_file_open(&codec.output, path, err);
+    if (result)
+        return result;
+    size_t row_bytes = 3 * (size_t)image->width * (size_t)bits / 8;
+    codec.pixels = malloc(row_bytes);
+    if (!codec.pixels) {
+        result = error_memory(err, (double)row_bytes);
+        goto out;
+    }
+    if (!encode(&codec, image)) {
+        result = codec.result ? codec.result
+                              : error_set(err, RESULT_DATA, "%s: the PNG file cannot be made (%s)",
+                                          output_file_name(path), codec.message);
+        goto out;
+    }
+    result = output_file_commit(&codec.output, err);
+out:
+    output_file_abort(&codec.output);
+    png_destroy_write_struct(&codec.png, &codec.info);
+    free(codec.pixels);
+    return result;
+}
