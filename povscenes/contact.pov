@@ -135,7 +135,7 @@ union {
   translate <-1.40, 0, 0.70>
 }
 
-// A small cube that stands on one edge against the ball.
+// A ball, and a cube that stands on one edge and leans on it.
 #declare Ball = sphere { y, 1 scale 0.62 }
 object {
   Ball

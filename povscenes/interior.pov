@@ -24,7 +24,7 @@ sky_sphere {
     color_map {
       [0.00 rgb <1.25, 1.12, 0.86>]
       [0.12 rgb <0.86, 1.02, 1.15>]
-      [0.40 rgb <0.30, 0.55, 0.95>]
+      [0.40 rgb <0.42, 0.70, 1.15>]
       [1.00 srgb <0.16, 0.36, 0.70>]
     }
   }
@@ -54,7 +54,10 @@ light_source {
 #declare Satin = finish { ambient 0 diffuse 0.75 specular 0.18 roughness 0.03 }
 
 #declare White_Paint = texture { pigment { srgb <0.93, 0.92, 0.89> } finish { Satin } }
-#declare Brass = texture { pigment { srgb <0.82, 0.62, 0.30> } finish { ambient 0.04 diffuse 0.55 specular 0.7 roughness 0.02 metallic } }
+#declare Brass = texture {
+  pigment { srgb <0.82, 0.62, 0.30> }
+  finish { ambient 0.04 diffuse 0.55 specular 0.7 roughness 0.02 metallic }
+}
 #declare Black_Iron = texture { pigment { srgb <0.13, 0.13, 0.14> } finish { Satin } }
 #declare Walnut = texture {
   pigment {
@@ -71,7 +74,7 @@ light_source {
 
 #declare Lacquer = finish {
   ambient 0 diffuse 0.62
-  reflection { 0.16, 0.9 fresnel }
+  reflection { 0.22, 0.9 fresnel }
   Gloss_Roughness(Roughness)
 }
 
@@ -147,7 +150,8 @@ object { Floor }
     pigment {
       function {
         (1 - 0.45*exp(-y/0.30))*(1 - 0.40*exp((y - Room_Height)/0.35))
-        *(1 - 0.45*exp(-abs(x - Room_Left)/0.35))*(1 - 0.45*exp(-abs(x - Room_Right)/0.35))*(1 - 0.45*exp(-abs(z - Room_Back)/0.35))
+        *(1 - 0.45*exp(-abs(x - Room_Left)/0.35))*(1 - 0.45*exp(-abs(x - Room_Right)/0.35))
+        *(1 - 0.45*exp(-abs(z - Room_Back)/0.35))
       }
       color_map { [0 Dark] [1 Light] }
     }
@@ -212,8 +216,12 @@ union {
   Sash(Window_Left + 0.05, (Window_Left + Window_Right)/2)
   Sash((Window_Left + Window_Right)/2, Window_Right - 0.05)
   box { <Window_Left, -0.02, -0.02>, <Window_Right, 0.045, 0.28> }
-  sphere { <(Window_Left + Window_Right)/2 + 0.03, 1.05, -0.03>, 0.022 texture { Brass } }
-  cylinder { <(Window_Left + Window_Right)/2 + 0.03, 1.05, -0.03>, <(Window_Left + Window_Right)/2 + 0.03, 1.05, 0.02>, 0.01 texture { Brass } }
+  union {
+    sphere { -z*0.03, 0.022 }
+    cylinder { -z*0.03, z*0.02, 0.01 }
+    texture { Brass }
+    translate <(Window_Left + Window_Right)/2 + 0.03, 1.05, 0>
+  }
   texture { White_Paint }
   translate z*Room_Back
 }
@@ -226,7 +234,7 @@ union {
     sphere { <-0.15, 0.75, -0.05>*Height, 0.20*Height }
     sphere { <0.03, 0.92, 0>*Height, 0.15*Height }
     pigment { bozo color_map { [0.2 Green*0.7] [0.8 Green] } scale 0.16*Height }
-    finish { ambient 0 diffuse 0.55 emission 0.55 }
+    finish { ambient 0 diffuse 0.55 emission 0.80 }
   }
 #end
 union {
@@ -238,7 +246,7 @@ union {
   object { Tree(3.2, srgb <0.84, 0.60, 0.18>) translate <-6.6, -0.45, 26> }
   object { Tree(5.4, srgb <0.36, 0.54, 0.26>) translate <-13.6, -0.45, 27> }
   box { <-8, -0.46, Room_Back + 0.28>, <6, -0.02, 8.4> pigment { srgb <0.78, 0.72, 0.64> } }
-  finish { ambient 0 diffuse 0.5 emission 0.60 }
+  finish { ambient 0 diffuse 0.5 emission 0.90 }
 }
 
 // Curtains: folds are cylinders side by side, thick and thin.
@@ -319,14 +327,23 @@ union {
   // A box, a bowl, a globe and a jar.
   box { <0.88, 0.07, 0.03>, <1.26, 0.33, 0.27> texture { pigment { srgb <0.85, 0.80, 0.70> } finish { Satin } } }
   box { <1.02, 0.20, 0.02>, <1.12, 0.23, 0.04> texture { Brass } }
-  sphere { <0.22, 0.62, 0.14>, 0.11 texture { pigment { granite color_map { [0.45 srgb <0.25, 0.47, 0.66>] [0.5 srgb <0.78, 0.72, 0.45>] } scale 0.4 } finish { Satin } } }
+  sphere {
+    <0.22, 0.62, 0.14>, 0.11
+    texture {
+      pigment { granite color_map { [0.45 srgb <0.25, 0.47, 0.66>] [0.5 srgb <0.78, 0.72, 0.45>] } scale 0.4 }
+      finish { Satin }
+    }
+  }
   cylinder { <0.22, 0.07 + Pitch, 0.14>, <0.22, 0.09 + Pitch, 0.14>, 0.06 texture { Brass } }
   sor {
     6, <0, -0.02>, <0.06, 0>, <0.13, 0.12>, <0.06, 0.26>, <0.07, 0.30>, <0.09, 0.33>
     translate <1.0, 0.07 + 3*Pitch, 0.15>
     texture { pigment { srgb <0.88, 0.38, 0.26> } finish { Satin } }
   }
-  cone { <0.3, 0.07 + 4*Pitch, 0.15>, 0.06, <0.3, 0.24 + 4*Pitch, 0.15>, 0.14 texture { pigment { srgb <0.93, 0.91, 0.86> } finish { Satin } } }
+  cone {
+    <0.3, 0.07 + 4*Pitch, 0.15>, 0.06, <0.3, 0.24 + 4*Pitch, 0.15>, 0.14
+    texture { pigment { srgb <0.93, 0.91, 0.86> } finish { Satin } }
+  }
 }
 object { Shelf translate <1.10, 0, Room_Back - 0.34> }
 
@@ -353,8 +370,8 @@ object { Shelf translate <1.10, 0, Room_Back - 0.34> }
       Chair_Leg(<0.21, 0, 0.24>, <0.17, 0.44, 0.16>)
       cylinder { <-0.19, 0.25, -0.18>, <-0.19, 0.25, 0.20>, 0.010 }
       cylinder { <0.19, 0.25, -0.18>, <0.19, 0.25, 0.20>, 0.010 }
-      cone { <-0.17, 0.44, 0.17>, 0.017, <-0.185, 0.70, 0.235>, 0.013 }
-      cone { <0.17, 0.44, 0.17>, 0.017, <0.185, 0.70, 0.235>, 0.013 }
+      cone { <-0.17, 0.44, 0.17>, 0.017, <-0.182, 0.66, 0.205>, 0.013 }
+      cone { <0.17, 0.44, 0.17>, 0.017, <0.182, 0.66, 0.205>, 0.013 }
       texture { pigment { srgb <0.40, 0.25, 0.15> } finish { Satin } }
     }
     superellipsoid { <0.35, 0.35> rotate x*90 scale <0.235, 0.04, 0.225> translate y*0.455 }
@@ -417,7 +434,11 @@ union {
   sphere { <0.01, 0.01, 0.05>, 0.045 pigment { srgb <0.74, 0.16, 0.12> } finish { Satin } }
   translate <0.52, 0.865, 2.62>
 }
-box { <-0.10, 0, -0.07>, <0.10, 0.025, 0.07> texture { pigment { srgb <0.15, 0.27, 0.45> } finish { Satin } } rotate y*25 translate <0.92, 0.745, 2.45> }
+box {
+  <-0.10, 0, -0.07>, <0.10, 0.025, 0.07>
+  texture { pigment { srgb <0.15, 0.27, 0.45> } finish { Satin } }
+  rotate y*25 translate <0.92, 0.745, 2.45>
+}
 
 // The lamp above it: a brass bell, bright inside.
 union {
@@ -451,7 +472,7 @@ union {
           [0.40 srgb <0.86, 0.44, 0.26>] [0.55 srgb <0.90, 0.55, 0.28>]
           [0.55 srgb <0.95, 0.76, 0.42>] [1.00 srgb <0.97, 0.88, 0.70>]
         }
-        scale 0.76 translate y*0.38
+        scale 0.9 translate y*0.54
       }
       finish { Matte }
     }
@@ -479,7 +500,10 @@ union {
   cylinder { 0, y*0.02, 0.09 texture { Brass } }
   sphere { y*0.14, 0.12 texture { pigment { srgb <0.83, 0.30, 0.20> } finish { Satin } } }
   cylinder { y*0.25, y*0.34, 0.012 texture { Brass } }
-  cone { y*0.32, 0.19, y*0.56, 0.13 open texture { pigment { srgb <1.0, 0.86, 0.62> } finish { ambient 0 diffuse 0.4 emission 0.75 } } }
+  cone {
+    y*0.32, 0.19, y*0.56, 0.13 open
+    texture { pigment { srgb <1.0, 0.86, 0.62> } finish { ambient 0 diffuse 0.4 emission 0.75 } }
+  }
   translate <-2.34, 0.72, 3.62>
   no_shadow
 }
