@@ -1,7 +1,7 @@
 // povgloss render spheres.pov +W640 +H480 +A0.3 -o spheres.png
 // Brushed steel and lacquered balls on a matt rug of coloured rings, in a studio with light panels and painted walls.
 // Curved mirrors that see each other: plain, declared and moved, scaled into an egg, rotated in a union, made by a macro.
-// The upright of the little barbell is matt: what a glossy ball mirrors is as often a thing that isn't glossy.
+// The bar between two of them is matt, and so is the rug: most of what they mirror is not glossy.
 #version 3.7;
 #include "colors.inc"
 #include "povgloss.inc"
