@@ -13,7 +13,9 @@ SANITIZE ?=
 comma := ,
 BUILD := build$(if $(SANITIZE),/sanitize-$(subst $(comma),-,$(SANITIZE)))
 
-CC ?= gcc
+ifeq ($(origin CC),default)
+CC := gcc
+endif
 CPPFLAGS += -D_GNU_SOURCE -DPOVGLOSS_VERSION='"$(VERSION)"' -Isrc
 CFLAGS += -std=c11 -O3 -g -ffp-contract=off -fno-math-errno -fno-trapping-math -pthread \
           -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla

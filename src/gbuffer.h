@@ -21,8 +21,10 @@ struct gbuffer {
     float eye[3];       /* world units; without it the footprint comes from the gradient of the direction field */
     float view_angle;   /* horizontal, radians; 0: unknown */
     float working_gamma; /* exponent of the space in which the renderer added its terms (POV-Ray's assumed_gamma);
-                            0 or 1: linear */
+                            0 or 1: linear; GBUFFER_GAMMA_SRGB: the sRGB curve */
 };
+
+#define GBUFFER_GAMMA_SRGB (-1.0f)
 
 /* Frees all planes and clears the rest. */
 void gbuffer_free(struct gbuffer *gbuffer);

@@ -1,0 +1,30 @@
+/* Other programs as child processes.
+ *
+ * A child is started by child_start, its output read from output_fd until end of file, and then reaped by child_wait;
+ * child_kill ends one that should not go on. Every started child is reaped exactly once.
+ */
+#ifndef POVGLOSS_CHILD_H
+#define POVGLOSS_CHILD_H
+
+#include "error.h"
+
+#include <stdbool.h>
+#include <sys/types.h>
+
+struct child {
+    pid_t pid;     /* 0: not running */
+    int output_fd; /* reads what the child writes to its standard error, without blocking; -1: closed */
+};
+
+/* Starts argv[0], looked up in PATH, in `directory`, with no standard input and its standard output thrown away.
+ * RESULT_POVRAY when it can't be executed; `*missing` is true when there is no such program. */
+MUST_CHECK enum result child_start(struct child *child, char *const *argv, const char *directory, char *const *environment,
+                                   bool *missing, struct error *err);
+
+/* Waits for the end and closes output_fd: the exit status, or 128 + the signal that ended it. */
+int child_wait(struct child *child);
+
+/* Asks the child to end, and makes it end after two seconds; reaps it. A child that isn't running is fine. */
+void child_kill(struct child *child);
+
+#endif

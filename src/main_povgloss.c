@@ -1,0 +1,260 @@
+/* povgloss: a POV-Ray scene in, its glossy image (render) or its passes file (passes) out.
+ *
+ * The command line mixes POV-Ray's switches, which are passed through, with options of two hyphens.
+ */
+#include "cli.h"
+#include "compose.h"
+#include "interrupt.h"
+#include "passes.h"
+#include "passes_file.h"
+#include "povray_switches.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char help[] =
+    "Usage: povgloss render SCENE.pov [POV-Ray switches] [options] -o IMAGE\n"
+    "       povgloss passes SCENE.pov [POV-Ray switches] [options] -o PASSES.exr\n"
+    "\n"
+    "Glossy reflections for POV-Ray scenes that say Gloss(300) in a finish (povgloss.inc).\n"
+    "render draws the glossy image; passes writes what glossfilter needs to draw it, again and again.\n"
+    "POV-Ray's switches (+W640 +H480 +A0.3 +Ldir Declare=x=1 file.ini) go to POV-Ray as they are.\n"
+    "\n"
+    "  -o FILE               output; - is standard output; .exr or .png says the format\n"
+    "  --subsample 1|2|4     trace the reflection at every so-many-th pixel only and interpolate (1)\n"
+    "  --jobs N              POV-Ray processes at the same time (0: two more than there are processors)\n"
+    "  --keep DIR            leave the rewritten scenes and POV-Ray's images in DIR\n"
+    "  --povray PROGRAM      the POV-Ray program (povray)\n"
+    "  --help, --version\n"
+    "\n"
+    "With render, the filter:\n";
+
+struct command {
+    bool passes_only;
+    const char *scene, *output;
+    struct passes_options passes;
+    struct cli_filter filter;
+    bool filter_options_used;
+    bool help, version;
+};
+
+static enum result take_scene(struct command *command, const char *scene, struct error *err)
+{
+    if (command->scene)
+        return error_set(err, RESULT_USAGE, "two scenes, %s and %s: give one", command->scene, scene);
+    command->scene = scene;
+    return RESULT_OK;
+}
+
+/* Options of povgloss alone; *taken is false if argv[*index] is none of them. */
+static enum result take_own_option(int argc, char **argv, int *index, struct command *command, bool *taken,
+                                   struct error *err)
+{
+    const struct {
+        const char *name;
+        const char **text;
+        int *number, low, high;
+    } options[] = {
+        {"-o", &command->output, NULL, 0, 0},
+        {"--keep", &command->passes.keep, NULL, 0, 0},
+        {"--povray", &command->passes.povray, NULL, 0, 0},
+        {"--jobs", NULL, &command->passes.jobs, 0, 64},
+        {"--subsample", NULL, &command->passes.subsample, 1, 4},
+    };
+    *taken = false;
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
+        const char *value;
+        enum result result = cli_value(argc, argv, index, options[i].name, &value, err);
+        if (result)
+            return result;
+        if (!value)
+            continue;
+        *taken = true;
+        if (options[i].text)
+            *options[i].text = value;
+        else
+            result = cli_integer(options[i].name, value, options[i].low, options[i].high, options[i].number, err);
+        if (!result && command->passes.subsample == 3)
+            result = error_set(err, RESULT_USAGE, "--subsample 3: 1, 2 or 4 is allowed");
+        return result;
+    }
+    return RESULT_OK;
+}
+
+static enum result take_argument(int argc, char **argv, int *index, struct command *command,
+                                 struct povray_switches *switches, struct error *err)
+{
+    const char *argument = argv[*index];
+    bool taken = false;
+    if (!strcmp(argument, "--help") || !strcmp(argument, "--version")) {
+        command->help |= argument[2] == 'h';
+        command->version |= argument[2] == 'v';
+        ++*index;
+        return RESULT_OK;
+    }
+    enum result result = take_own_option(argc, argv, index, command, &taken, err);
+    if (result || taken)
+        return result;
+    result = cli_filter_option(argc, argv, index, &command->filter, &taken, err);
+    if (result || taken) {
+        command->filter_options_used |= strcmp(argument, "--quiet") != 0;
+        return result;
+    }
+    ++*index;
+    if (povray_switch_is(argument))
+        return povray_switch_take(switches, argument, err);
+    if (argument[0] == '-' && argument[1])
+        return error_set(err, RESULT_USAGE, "unknown option %s: see povgloss --help", argument);
+    return take_scene(command, argument, err);
+}
+
+static enum result check_command(struct command *command, const struct povray_switches *switches, struct error *err)
+{
+    if (switches->scene) {
+        enum result result = take_scene(command, switches->scene, err);
+        if (result)
+            return result;
+    }
+    if (!command->scene)
+        return error_set(err, RESULT_USAGE, "no scene: name a .pov file");
+    if (!command->output)
+        return error_set(err, RESULT_USAGE, "no output: add -o FILE (or -o - for standard output)");
+    if (command->passes_only && command->filter_options_used)
+        return error_set(err, RESULT_USAGE, "povgloss passes doesn't filter: give the filter's options to glossfilter");
+    int step = command->passes.subsample;
+    if (step > 1 && (switches->width == 0 || switches->height == 0 || switches->width % step || switches->height % step))
+        return error_set(err, RESULT_USAGE, "--subsample %d needs +W and +H on the command line, both multiples of %d", step,
+                         step);
+    if (command->passes_only && !command->filter.format)
+        command->filter.format = "exr";
+    return RESULT_OK;
+}
+
+static enum result parse(int argc, char **argv, struct command *command, struct povray_switches *switches,
+                         struct error *err)
+{
+    *command = (struct command){.passes = {.povray = "povray", .subsample = 1}, .filter = cli_filter_default()};
+    if (argc < 2)
+        return error_set(err, RESULT_USAGE, "no command: povgloss render SCENE -o IMAGE, or see povgloss --help");
+    int index = 1;
+    if (!strcmp(argv[1], "render") || !strcmp(argv[1], "passes")) {
+        command->passes_only = argv[1][0] == 'p';
+        index = 2;
+    } else if (argv[1][0] != '-') {
+        return error_set(err, RESULT_USAGE, "unknown command %s: render or passes, see povgloss --help", argv[1]);
+    }
+    enum result result = RESULT_OK;
+    while (!result && index < argc)
+        result = take_argument(argc, argv, &index, command, switches, err);
+    if (result || command->help || command->version)
+        return result;
+    if (argv[1][0] == '-')
+        return error_set(err, RESULT_USAGE, "no command: write render or passes first, see povgloss --help");
+    return check_command(command, switches, err);
+}
+
+/* A bar that is drawn again on a terminal, and a line for every quarter elsewhere. */
+struct progress {
+    bool terminal;
+    int shown; /* percent; -1: nothing yet */
+};
+
+static void show_progress(void *context, double done)
+{
+    struct progress *progress = context;
+    int percent = (int)(100 * done), step = progress->terminal ? 1 : 25;
+    if (percent / step == progress->shown / step && progress->shown >= 0)
+        return;
+    progress->shown = percent;
+    if (!progress->terminal) {
+        fprintf(stderr, "povgloss: rendering passes, %d %%\n", percent / 25 * 25);
+        return;
+    }
+    char bar[41];
+    for (int i = 0; i < 40; i++)
+        bar[i] = i < percent * 40 / 100 ? '#' : '.';
+    bar[40] = 0;
+    fprintf(stderr, "\rpovgloss: passes [%s] %3d %%%s", bar, percent, percent == 100 ? "\n" : "");
+    fflush(stderr);
+}
+
+static void no_progress(void *context, double done)
+{
+    (void)context;
+    (void)done;
+}
+
+static enum result draw(const struct command *command, const struct gbuffer *gbuffer, struct error *err)
+{
+    struct image glossy = {0}, radius = {0}, image = {0};
+    enum result result = filter_glossy(gbuffer, &command->filter.filter, &glossy, &radius, err);
+    if (!result)
+        result = compose(gbuffer, &glossy, &image, err);
+    if (!result)
+        result = cli_write(command->output, &command->filter, &image, &glossy, &radius, err);
+    image_free(&glossy);
+    image_free(&radius);
+    image_free(&image);
+    return result;
+}
+
+static enum result run(struct command *command, const struct povray_switches *switches, struct error *err)
+{
+    struct progress progress = {.terminal = isatty(STDERR_FILENO), .shown = -1};
+    struct gbuffer gbuffer = {0};
+    struct error note;
+
+    /* 1. refuse what can't be written, before the work */
+    enum result result = cli_check_output(command->output, &command->filter, err);
+    if (result)
+        return result;
+
+    /* 2. the passes, from POV-Ray */
+    struct passes_options *passes = &command->passes;
+    passes->scene = command->scene;
+    passes->switches = switches->passed;
+    passes->switch_count = switches->passed_count;
+    passes->libraries = switches->libraries;
+    passes->library_count = switches->library_count;
+    passes->width = switches->width;
+    passes->height = switches->height;
+    passes->progress = command->filter.quiet ? no_progress : show_progress;
+    passes->progress_context = &progress;
+    result = passes_render(passes, &gbuffer, &note, err);
+    if (result && progress.terminal && !command->filter.quiet && progress.shown >= 0 && progress.shown < 100)
+        fputc('\n', stderr);
+    if (!result && note.text[0] && !command->filter.quiet)
+        cli_complain("povgloss: warning", &note);
+
+    /* 3. the passes file, or the picture by the filter */
+    if (!result && command->passes_only)
+        result = passes_file_write(command->output, &gbuffer, err);
+    else if (!result)
+        result = draw(command, &gbuffer, err);
+    gbuffer_free(&gbuffer);
+    return result;
+}
+
+int main(int argc, char **argv)
+{
+    struct command command;
+    struct povray_switches switches = {0};
+    struct error err;
+    interrupt_install();
+    enum result result = povray_switches_make(&switches, argc, &err);
+    if (!result)
+        result = parse(argc, argv, &command, &switches, &err);
+    if (!result && command.help)
+        printf("%s%s", help, cli_filter_help);
+    else if (!result && command.version)
+        printf("povgloss %s\n", POVGLOSS_VERSION);
+    else if (!result)
+        result = run(&command, &switches, &err);
+    povray_switches_free(&switches);
+    if (result == RESULT_INTERRUPTED)
+        interrupt_reraise();
+    if (result)
+        cli_complain("povgloss", &err);
+    return (int)result;
+}

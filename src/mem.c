@@ -1,0 +1,96 @@
+#include "mem.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum result buffer_add(struct buffer *buffer, const void *bytes, size_t size, struct error *err)
+{
+    if (buffer->size + size + 1 > buffer->capacity) {
+        size_t capacity = (buffer->size + size + 1) * 2;
+        char *data = realloc(buffer->data, capacity);
+        if (!data)
+            return error_memory(err, (double)capacity);
+        buffer->data = data;
+        buffer->capacity = capacity;
+    }
+    if (size)
+        memcpy(buffer->data + buffer->size, bytes, size);
+    buffer->size += size;
+    buffer->data[buffer->size] = 0;
+    return RESULT_OK;
+}
+
+enum result buffer_add_text(struct buffer *buffer, const char *text, struct error *err)
+{
+    return buffer_add(buffer, text, strlen(text), err);
+}
+
+enum result buffer_printf(struct buffer *buffer, struct error *err, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    char *text = NULL;
+    int length = vasprintf(&text, format, args);
+    va_end(args);
+    if (length < 0)
+        return error_memory(err, (double)strlen(format));
+    enum result result = buffer_add(buffer, text, (size_t)length, err);
+    free(text);
+    return result;
+}
+
+void buffer_free(struct buffer *buffer)
+{
+    free(buffer->data);
+    *buffer = (struct buffer){0};
+}
+
+enum result text_printf(char **text, struct error *err, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    int length = vasprintf(text, format, args);
+    va_end(args);
+    if (length >= 0)
+        return RESULT_OK;
+    *text = NULL;
+    return error_memory(err, (double)strlen(format));
+}
+
+enum result file_read(const char *path, size_t limit, struct buffer *buffer, struct error *err)
+{
+    *buffer = (struct buffer){0};
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return error_set(err, RESULT_DATA, "%s: can't be opened: %s", path, strerror(errno));
+    char block[1 << 16];
+    enum result result = RESULT_OK;
+    size_t count;
+    while (!result && (count = fread(block, 1, sizeof block, file)) > 0) {
+        result = buffer_add(buffer, block, count, err);
+        if (!result && buffer->size > limit)
+            result = error_set(err, RESULT_DATA, "%s: larger than %zu bytes", path, limit);
+    }
+    if (!result && ferror(file))
+        result = error_set(err, RESULT_DATA, "%s: can't be read: %s", path, strerror(errno));
+    if (!result)
+        result = buffer_add(buffer, "", 0, err);
+    fclose(file);
+    if (result)
+        buffer_free(buffer);
+    return result;
+}
+
+enum result file_write(const char *path, const struct buffer *buffer, struct error *err)
+{
+    FILE *file = fopen(path, "wb");
+    if (!file)
+        return error_set(err, RESULT_DATA, "%s: can't be written: %s", path, strerror(errno));
+    int failed = fwrite(buffer->data, 1, buffer->size, file) != buffer->size;
+    if (fclose(file) || failed)
+        return error_set(err, RESULT_DATA, "%s: can't be written: %s", path, strerror(errno));
+    return RESULT_OK;
+}

@@ -1,0 +1,31 @@
+/* A growing array of bytes, the only container of the library: text that is built up, lists of anything. */
+#ifndef POVGLOSS_MEM_H
+#define POVGLOSS_MEM_H
+
+#include "error.h"
+
+#include <stddef.h>
+
+struct buffer {
+    char *data; /* always followed by a NUL once anything was added */
+    size_t size, capacity;
+};
+
+/* Appends bytes; RESULT_DATA when memory runs out (the buffer is as before). */
+MUST_CHECK enum result buffer_add(struct buffer *buffer, const void *bytes, size_t size, struct error *err);
+MUST_CHECK enum result buffer_add_text(struct buffer *buffer, const char *text, struct error *err);
+__attribute__((format(printf, 3, 4))) MUST_CHECK enum result buffer_printf(struct buffer *buffer, struct error *err,
+                                                                           const char *format, ...);
+void buffer_free(struct buffer *buffer);
+
+/* A new string by a printf format in *text, which the caller frees. */
+__attribute__((format(printf, 3, 4))) MUST_CHECK enum result text_printf(char **text, struct error *err,
+                                                                         const char *format, ...);
+
+/* Reads a whole file (at most `limit` bytes, else RESULT_DATA) into a buffer that the caller frees. */
+MUST_CHECK enum result file_read(const char *path, size_t limit, struct buffer *buffer, struct error *err);
+
+/* Writes a whole new file or replaces its content; for files in a folder of our own. */
+MUST_CHECK enum result file_write(const char *path, const struct buffer *buffer, struct error *err);
+
+#endif

@@ -1,0 +1,85 @@
+#include "position_code.h"
+
+#include <math.h>
+
+/* Half the span of v, how much of its fraction the low digits hold, and the code's radii: see the header. */
+#define SPAN 0.499
+#define LOW_STEPS 16384.0
+#define LOW_SPAN 0.998
+#define LOW_START 0.001
+#define RADIUS_START 0.05
+#define RADIUS_SPAN 0.9
+#define DECADES 24.0
+#define FIRST_DECADE (-12.0)
+/* Between the largest radius of a position, 0.95, and that of a direction, 1. */
+#define DIRECTION_RADIUS 0.975
+
+enum result position_code_pigment(struct buffer *text, bool direction, enum position_digits digits, struct error *err)
+{
+    static const char *const axes[] = {"x", "y", "z"}, *const colours[] = {"red", "green", "blue"};
+    enum result result = buffer_add_text(text, "pigment { average pigment_map {\n", err);
+    for (int axis = 0; !result && axis < 3; axis++) {
+        struct buffer v = {0};
+        result = buffer_printf(&v, err, "0.5 + %.17g*%s/(sqrt(x*x + y*y + z*z) + 1e-30)", SPAN, axes[axis]);
+        if (!result && !direction)
+            result = buffer_printf(&v, err, "*(%.17g + %.17g*min(1, max(0, (log(sqrt(x*x + y*y + z*z) + 1e-30) + %.17g)/%.17g)))",
+                                   RADIUS_START, RADIUS_SPAN, -FIRST_DECADE, DECADES);
+        if (!result && digits == POSITION_DIGITS_HIGH)
+            result = buffer_printf(text, err, "[1 function { %s }", v.data);
+        else if (!result)
+            result = buffer_printf(text, err, "[1 function { %.17g + %.17g*(%.17g*(%s) - floor(%.17g*(%s))) }", LOW_START,
+                                   LOW_SPAN, LOW_STEPS, v.data, LOW_STEPS, v.data);
+        if (!result)
+            result = buffer_printf(text, err, " color_map { [0 rgb 0] [1 %s 3] }]\n", colours[axis]);
+        buffer_free(&v);
+    }
+    return result ? result : buffer_add_text(text, "} }\n", err);
+}
+
+/* v in [0, 1] from its 16-bit code and the fraction of LOW_STEPS v. */
+static double combine(double high, double low)
+{
+    double fraction = (low - LOW_START) / LOW_SPAN;
+    return (round(LOW_STEPS * high - fraction) + fraction) / LOW_STEPS;
+}
+
+static void decode_pixel(const double v[3], float decoded[4])
+{
+    double q[3], radius = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        q[axis] = (v[axis] - 0.5) / SPAN;
+        radius += q[axis] * q[axis];
+    }
+    radius = sqrt(radius);
+    double length = 1;
+    decoded[3] = radius < DIRECTION_RADIUS;
+    if (decoded[3])
+        length = pow(10, (radius - RADIUS_START) / RADIUS_SPAN * DECADES + FIRST_DECADE);
+    for (int axis = 0; axis < 3; axis++)
+        decoded[axis] = (float)(radius > 0 ? q[axis] / radius * length : 0);
+}
+
+enum result position_code_decode(const struct image *high, const struct image *low, struct image *decoded,
+                                 struct error *err)
+{
+    if (low && (low->width != high->width || low->height != high->height))
+        return error_set(err, RESULT_DATA, "two images of digits differ in size: %dx%d and %dx%d", high->width,
+                         high->height, low->width, low->height);
+    enum result result = image_alloc(decoded, high->width, high->height, 4, err);
+    for (int y = 0; !result && y < high->height; y++)
+        for (int x = 0; x < high->width; x++) {
+            double v[3], sum = 0;
+            for (int axis = 0; axis < 3; axis++) {
+                v[axis] = image_row(high, axis, y)[x];
+                sum += v[axis];
+                if (low)
+                    v[axis] = combine(v[axis], image_row(low, axis, y)[x]);
+            }
+            float pixel[4] = {0};
+            if (sum > 0)
+                decode_pixel(v, pixel);
+            for (int axis = 0; axis < 4; axis++)
+                image_row(decoded, axis, y)[x] = pixel[axis];
+        }
+    return result;
+}

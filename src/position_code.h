@@ -1,0 +1,25 @@
+/* World positions and directions as colours: what the coded passes render, and its way back.
+ *
+ * A point p is coded as q = p/|p| (1/20 + 9/10 (log10 |p| + 12)/24) for |p| from 1e-12 to 1e12, so that its relative
+ * precision is the same at every scale; a direction is q with |q| = 1. The digits v = 1/2 + 0.499 q lie strictly inside
+ * (0, 1): black is "nothing here". A first image holds v in 16 bits, a second one the fraction of 16384 v; together they
+ * have 30 bits, a relative error of |p| below 1e-7.
+ */
+#ifndef POVGLOSS_POSITION_CODE_H
+#define POVGLOSS_POSITION_CODE_H
+
+#include "gbuffer.h"
+#include "mem.h"
+
+enum position_digits { POSITION_DIGITS_HIGH, POSITION_DIGITS_LOW };
+
+/* Scene text of a pigment that colours every point (for a sky_sphere with `direction`: every direction) by its digits. */
+MUST_CHECK enum result position_code_pigment(struct buffer *text, bool direction, enum position_digits digits,
+                                             struct error *err);
+
+/* Decodes two images of digits (codes from 0 to 1, 3 channels) into X Y Z W planes (allocated here): W = 1 a position,
+ * W = 0 a unit direction, all 0 where the image is black. Without low digits (NULL) about 1e-5 of a direction. */
+MUST_CHECK enum result position_code_decode(const struct image *high, const struct image *low, struct image *decoded,
+                                            struct error *err);
+
+#endif

@@ -1,0 +1,139 @@
+#include "povray.h"
+
+#include "interrupt.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_JOBS = 16, POLL_MS = 200, MAX_MESSAGES = 1 << 22 };
+
+/* POV-Ray writes `Rendered N of M pixels (P%)`, ended by a carriage return. */
+static void read_progress(struct povray_job *job)
+{
+    const char *text = job->messages.data, *last = NULL;
+    size_t tail = job->messages.size < 300 ? 0 : job->messages.size - 300;
+    for (const char *at = text + tail; (at = strstr(at, "Rendered ")); at++)
+        last = at;
+    double pixels, all;
+    if (last && sscanf(last, "Rendered %lf of %lf pixels", &pixels, &all) == 2 && all > 0)
+        job->done = pixels / all;
+}
+
+/* Takes what there is to read; *ended is true at end of file. */
+static enum result read_messages(struct povray_job *job, bool *ended, struct error *err)
+{
+    char block[4096];
+    ssize_t count;
+    enum result result = RESULT_OK;
+    while (!result && (count = read(job->child.output_fd, block, sizeof block)) > 0) {
+        for (ssize_t i = 0; i < count; i++)
+            if (!block[i])
+                block[i] = ' ';
+        if (job->messages.size < MAX_MESSAGES)
+            result = buffer_add(&job->messages, block, (size_t)count, err);
+    }
+    *ended = !result && (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR));
+    if (!result && job->messages.size)
+        read_progress(job);
+    return result;
+}
+
+static enum result start_job(struct povray_job *job, char *const *environment, struct error *err)
+{
+    bool missing;
+    enum result result = child_start(&job->child, job->arguments, job->folder, environment, &missing, err);
+    if (result && missing)
+        return error_set(err, RESULT_POVRAY,
+                         "%s isn't in PATH: install POV-Ray 3.7 (on Debian: apt-get install povray povray-includes)",
+                         job->arguments[0]);
+    job->started = !result;
+    return result;
+}
+
+static void report(const struct povray_job *jobs, int count, povray_progress *progress, void *context)
+{
+    double done = 0;
+    for (int i = 0; i < count; i++)
+        done += jobs[i].finished ? 1 : 0.99 * jobs[i].done;
+    progress(context, done / count);
+}
+
+enum result povray_run(struct povray_job *jobs, int count, int at_once, char *const *environment,
+                       povray_progress *progress, void *context, int *failed, struct error *err)
+{
+    enum result result = RESULT_OK;
+    int finished = 0, running = 0, next = 0;
+    *failed = -1;
+    while (!result && finished < count) {
+        while (!result && running < at_once && next < count && running < MAX_JOBS) {
+            result = start_job(&jobs[next++], environment, err);
+            running += !result;
+        }
+        struct pollfd polls[MAX_JOBS];
+        int owners[MAX_JOBS], poll_count = 0;
+        for (int i = 0; i < count; i++)
+            if (jobs[i].started && !jobs[i].finished) {
+                owners[poll_count] = i;
+                polls[poll_count++] = (struct pollfd){.fd = jobs[i].child.output_fd, .events = POLLIN};
+            }
+        if (!result && poll(polls, (nfds_t)poll_count, POLL_MS) < 0 && errno != EINTR)
+            result = error_set(err, RESULT_DATA, "waiting for POV-Ray failed: %s", strerror(errno));
+        if (interrupt_signal())
+            result = RESULT_INTERRUPTED;
+        for (int i = 0; !result && i < poll_count; i++) {
+            struct povray_job *job = &jobs[owners[i]];
+            bool ended = false;
+            if (polls[i].revents)
+                result = read_messages(job, &ended, err);
+            if (result || !ended)
+                continue;
+            int status = child_wait(&job->child);
+            job->finished = true;
+            running--;
+            finished++;
+            if (status && !interrupt_signal()) {
+                *failed = owners[i];
+                result = error_set(err, RESULT_POVRAY, "povray failed with exit status %d in the %s pass", status,
+                                   job->name);
+            }
+        }
+        report(jobs, count, progress, context);
+    }
+    for (int i = 0; i < count; i++)
+        child_kill(&jobs[i].child);
+    return result;
+}
+
+void povray_jobs_free(struct povray_job *jobs, int count)
+{
+    for (int i = 0; i < count; i++)
+        buffer_free(&jobs[i].messages);
+}
+
+/* A message is wrapped at 80 columns, and its further lines begin with a space. */
+enum result povray_error_text(const struct buffer *messages, struct buffer *text, struct error *err)
+{
+    enum result result = RESULT_OK;
+    bool wanted = false;
+    const char *line = messages->data ? messages->data : "";
+    while (!result && *line) {
+        size_t length = strcspn(line, "\r\n");
+        const char *end = line + length;
+        char *copy = strndup(line, length);
+        if (!copy)
+            return error_memory(err, (double)length);
+        bool further = wanted && copy[0] == ' ';
+        wanted = further || strstr(copy, "rror") || !strncmp(copy, "Problem with option", 19) ||
+                 !strncmp(copy, "Failed to parse", 15);
+        bool noise = !strncmp(copy, "Fatal error in parser: Cannot parse input", 41);
+        if (wanted && !noise && length)
+            result = buffer_printf(text, err, "%s%s", further || !text->size ? "" : "\n", copy);
+        free(copy);
+        line = end + strspn(end, "\r\n");
+    }
+    return result;
+}

@@ -1,0 +1,34 @@
+/* Several POV-Ray processes at the same time: start, progress, messages, failure. */
+#ifndef POVGLOSS_POVRAY_H
+#define POVGLOSS_POVRAY_H
+
+#include "child.h"
+#include "mem.h"
+
+/* One process. The caller fills the first group and frees the arguments; povray_run does the rest. */
+struct povray_job {
+    const char *name;       /* of the pass, for messages */
+    const char *folder;     /* where the process runs and writes its image */
+    char *const *arguments; /* argv, argv[0] being the program; NULL-terminated */
+
+    struct child child;
+    struct buffer messages; /* standard error */
+    double done;            /* 0 to 1 */
+    bool started, finished;
+};
+
+/* Is told from time to time how much of all the work is done, 0 to 1. */
+typedef void povray_progress(void *context, double done);
+
+/* Runs all jobs, `at_once` of them at a time, in their order, with the environment given. When one fails the others are
+ * ended, *failed is its index (else -1), its messages are there for povray_error_text, and the result is RESULT_POVRAY
+ * with its exit status; RESULT_INTERRUPTED after a signal. No process is left in any case. */
+MUST_CHECK enum result povray_run(struct povray_job *jobs, int count, int at_once, char *const *environment,
+                                  povray_progress *progress, void *context, int *failed, struct error *err);
+void povray_jobs_free(struct povray_job *jobs, int count);
+
+/* The lines of POV-Ray's messages that say what is wrong, in *text (the caller frees it): the wrapped lines joined, banner,
+ * options and progress left out. */
+MUST_CHECK enum result povray_error_text(const struct buffer *messages, struct buffer *text, struct error *err);
+
+#endif

@@ -1,0 +1,669 @@
+#include "scene_rewrite.h"
+
+#include "gbuffer.h"
+#include "lobe.h"
+
+#include <assert.h>
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+enum { MAX_FILE_SIZE = 1 << 30, MAX_FILES = 1000, MAX_CONDITIONS = 256 };
+
+/* What happens to statements that are allowed at the top level only. */
+enum statements {
+    STATEMENTS_STAY,   /* the copy isn't inside a union */
+    STATEMENTS_BREAK,  /* the union is closed before them and opened again after them */
+    STATEMENTS_CAMERA, /* the same for camera and global_settings; the rest is dropped */
+    STATEMENTS_DROP,
+};
+
+struct rules {
+    const char *name;
+    enum statements statements;
+    bool lights;
+    bool marks;           /* povgloss_begin and povgloss_end in finishes */
+    bool pigments;        /* pigments become povgloss_pigment */
+    bool opaque;          /* filter and transmit become 0 */
+    bool coded;           /* textures are taken off */
+    bool technical;       /* linear working space, no photons, no radiosity */
+};
+
+static const struct rules copy_rules[SCENE_COPY_COUNT] = {
+    [SCENE_COPY_PLAIN] = {"plain", STATEMENTS_BREAK, .lights = true},
+    [SCENE_COPY_BASE] = {"base", STATEMENTS_STAY, .lights = true, .marks = true},
+    [SCENE_COPY_BASE_SECOND] = {"base2", STATEMENTS_DROP, .marks = true},
+    [SCENE_COPY_MIRROR] = {"mirror", STATEMENTS_CAMERA, .marks = true, .pigments = true, .technical = true},
+    [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .marks = true, .pigments = true, .technical = true},
+    [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .marks = true, .opaque = true},
+    [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .coded = true, .technical = true},
+};
+
+static bool in_list(const struct scene_file *file, int token, const char *const *words)
+{
+    for (; *words; words++)
+        if (token_is(&file->source, &file->list.tokens[token], TOKEN_WORD, *words))
+            return true;
+    return false;
+}
+
+static bool is_word(const struct scene_file *file, int token, const char *word)
+{
+    return token >= 0 && token < file->list.count &&
+           token_is(&file->source, &file->list.tokens[token], TOKEN_WORD, word);
+}
+
+static bool is_mark(const struct scene_file *file, int token, const char *mark)
+{
+    return token >= 0 && token < file->list.count &&
+           token_is(&file->source, &file->list.tokens[token], TOKEN_MARK, mark);
+}
+
+static bool is_directive(const struct scene_file *file, int token, const char *word)
+{
+    return token >= 0 && token_is(&file->source, &file->list.tokens[token], TOKEN_DIRECTIVE, word);
+}
+
+static double number_value(const struct scene_file *file, int token)
+{
+    return strtod(file->source.data + file->list.tokens[token].begin, NULL);
+}
+
+/* The token that says what kind of block an opening brace begins: `union {`, `function (x, y) {`, `function 9, 9 {`. */
+static int block_keyword(const struct scene_file *file, int brace)
+{
+    int token = brace - 1;
+    if (is_mark(file, token, ")") && file->list.tokens[token].match > 0)
+        token = file->list.tokens[token].match - 1;
+    while (token > 0 && (file->list.tokens[token].kind == TOKEN_NUMBER || is_mark(file, token, ",")))
+        token--;
+    return token;
+}
+
+static bool inside(const struct scene_file *file, int token, const char *keyword)
+{
+    for (int brace = file->list.tokens[token].parent; brace >= 0; brace = file->list.tokens[brace].parent)
+        if (brace > 0 && is_word(file, block_keyword(file, brace), keyword))
+            return true;
+    return false;
+}
+
+static bool opens_block(const struct scene_file *file, int token)
+{
+    return is_mark(file, token + 1, "{") && file->list.tokens[token + 1].match > 0;
+}
+
+/* ---- reading ---- */
+
+static const char *base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* The index of the word at `token` in a list of names, or -1. */
+static int find_name(const struct buffer *names, const struct scene_file *file, int token)
+{
+    if (file->list.tokens[token].kind != TOKEN_WORD)
+        return -1;
+    const char *word = file->source.data + file->list.tokens[token].word;
+    size_t length = file->list.tokens[token].word_length;
+    int index = 0;
+    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1, index++)
+        if (strlen(names->data + at) == length && !memcmp(names->data + at, word, length))
+            return index;
+    return -1;
+}
+
+static enum result add_name(struct buffer *names, const struct scene_file *file, int token, struct error *err)
+{
+    if (find_name(names, file, token) >= 0)
+        return RESULT_OK;
+    enum result result = buffer_add(names, file->source.data + file->list.tokens[token].word,
+                                    file->list.tokens[token].word_length, err);
+    return result ? result : buffer_add(names, "", 1, err);
+}
+
+/* Notes one call Gloss(p) or Gloss_Roughness(r) whose name is at `token`. */
+static void note_gloss(struct scene *scene, const struct scene_file *file, int token)
+{
+    double exponent = -1;
+    if (file->list.tokens[token + 2].kind == TOKEN_NUMBER && is_mark(file, token + 3, ")")) {
+        exponent = number_value(file, token + 2);
+        if (is_word(file, token, "Gloss_Roughness"))
+            exponent = lobe_phong_from_roughness(exponent);
+    }
+    if (scene->gloss_calls++ == 0)
+        scene->exponent = exponent;
+    else if (scene->exponent != exponent)
+        scene->exponent = -1;
+}
+
+/* A `reflection` makes a plain mirror unless its finish is glossy or it is the number 0. */
+static bool is_plain_mirror(const struct scene_file *file, int token)
+{
+    int brace = file->list.tokens[token].parent;
+    if (brace > 0 && is_word(file, block_keyword(file, brace), "photons"))
+        return false;
+    bool zero = file->list.tokens[token + 1].kind == TOKEN_NUMBER && number_value(file, token + 1) == 0;
+    if (brace <= 0 || !is_word(file, brace - 1, "finish") || file->list.tokens[brace].match < 0)
+        return !zero;
+    for (int i = brace; i < file->list.tokens[brace].match; i++)
+        if (is_word(file, i, "Gloss") || is_word(file, i, "Gloss_Roughness"))
+            return false;
+    return !zero;
+}
+
+static enum result note_gamma(struct scene *scene, const struct scene_file *file, int token, struct error *err)
+{
+    const struct token *value = &file->list.tokens[token + 1];
+    if (is_word(file, token + 1, "srgb")) {
+        scene->working_gamma = GBUFFER_GAMMA_SRGB;
+    } else if (value->kind == TOKEN_NUMBER && (value[1].kind == TOKEN_WORD || is_mark(file, token + 2, "}"))) {
+        scene->working_gamma = number_value(file, token + 1);
+    } else {
+        return error_set(err, RESULT_DATA,
+                         "%s:%d: assumed_gamma must be a plain number or srgb, so that the passes can be recombined in "
+                         "the same space: write the number",
+                         file->path, file->list.tokens[token].line);
+    }
+    return RESULT_OK;
+}
+
+static enum result load_file(struct scene *scene, char *path, const char *const *directories, int directory_count,
+                             struct error *err);
+
+static bool readable(const char *path)
+{
+    return access(path, R_OK) == 0;
+}
+
+/* The path of an include file, which the caller frees; *path is NULL when it isn't in any of the directories. */
+static enum result find_include(const char *name, const char *const *directories, int directory_count, char **path,
+                                struct error *err)
+{
+    *path = NULL;
+    for (int i = 0; i < directory_count; i++) {
+        enum result result = name[0] == '/' ? text_printf(path, err, "%s", name)
+                                            : text_printf(path, err, "%s/%s", directories[i], name);
+        if (result || readable(*path))
+            return result;
+        free(*path);
+        *path = NULL;
+    }
+    return RESULT_OK;
+}
+
+static enum result follow_include(struct scene *scene, int index, int token, const char *const *directories,
+                                  int directory_count, struct error *err)
+{
+    struct scene_file *file = &scene->files[index];
+    const struct token *name = &file->list.tokens[token];
+    if (name->kind != TOKEN_STRING || is_mark(file, token + 1, "+"))
+        return error_set(err, RESULT_DATA,
+                         "%s:%d: an #include by a computed name can't be followed: write the file's name in quotes",
+                         file->path, name->line);
+    char *literal = strndup(file->source.data + name->begin + 1, name->end - name->begin - 2), *path = NULL;
+    if (!literal)
+        return error_memory(err, (double)(name->end - name->begin));
+    enum result result = find_include(literal, directories, directory_count, &path, err);
+    free(literal);
+    if (result || !path)
+        return result;
+    int target = 0;
+    while (target < scene->file_count && strcmp(scene->files[target].path, path))
+        target++;
+    if (target == scene->file_count)
+        result = load_file(scene, path, directories, directory_count, err);
+    else
+        free(path);
+    if (result)
+        return result;
+    file = &scene->files[index];
+    struct scene_include *includes =
+        realloc(file->includes, ((size_t)file->include_count + 1) * sizeof *file->includes);
+    if (!includes)
+        return error_memory(err, sizeof *file->includes);
+    includes[file->include_count++] = (struct scene_include){.token = token, .file = target};
+    file->includes = includes;
+    return RESULT_OK;
+}
+
+static enum result note_token(struct scene *scene, int index, int token, struct error *err)
+{
+    const struct scene_file *file = &scene->files[index];
+    const struct token *tokens = file->list.tokens;
+    bool declares = is_directive(file, token, "declare") || is_directive(file, token, "local") ||
+                    is_directive(file, token, "macro");
+    if (declares && tokens[token + 1].kind == TOKEN_WORD) {
+        enum result result = add_name(&scene->names, file, token + 1, err);
+        if (!result && is_mark(file, token + 2, "=") && is_word(file, token + 3, "light_source"))
+            result = add_name(&scene->lights, file, token + 1, err);
+        return result;
+    }
+    if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
+        scene->plain_mirrors = true;
+    if (is_word(file, token, "assumed_gamma"))
+        return note_gamma(scene, file, token, err);
+    bool own = !strcmp(base_name(file->path), "povgloss.inc");
+    if (!own && (is_word(file, token, "Gloss") || is_word(file, token, "Gloss_Roughness")) &&
+        is_mark(file, token + 1, "(") && !is_directive(file, token - 1, "macro"))
+        note_gloss(scene, file, token);
+    static const char *const atmospheres[] = {"fog", "rainbow", "media", NULL};
+    if (tokens[token].parent < 0 && opens_block(file, token) && in_list(file, token, atmospheres) &&
+        !is_mark(file, token - 1, "="))
+        scene->atmosphere = is_word(file, token, "fog") ? "fog" : is_word(file, token, "media") ? "media" : "rainbow";
+    return RESULT_OK;
+}
+
+/* Takes `path` over. */
+static enum result load_file(struct scene *scene, char *path, const char *const *directories, int directory_count,
+                             struct error *err)
+{
+    enum result result = RESULT_OK;
+    struct scene_file *files = realloc(scene->files, ((size_t)scene->file_count + 1) * sizeof *files);
+    if (!files || scene->file_count >= MAX_FILES) {
+        result = files ? error_set(err, RESULT_DATA, "%s: the scene has more than %d files", path, MAX_FILES)
+                       : error_memory(err, sizeof *files);
+        scene->files = files ? files : scene->files;
+        free(path);
+        return result;
+    }
+    scene->files = files;
+    int index = scene->file_count++;
+    files[index] = (struct scene_file){.path = path};
+    result = file_read(path, MAX_FILE_SIZE, &files[index].source, err);
+    if (!result)
+        result = scene_lex(path, &files[index].source, &files[index].list, err);
+    for (int token = 0; !result && token < scene->files[index].list.count; token++) {
+        result = note_token(scene, index, token, err);
+        if (!result && is_directive(&scene->files[index], token, "include"))
+            result = follow_include(scene, index, token + 1, directories, directory_count, err);
+    }
+    return result;
+}
+
+enum result scene_load(struct scene *scene, const char *path, const char *const *directories, int directory_count,
+                       struct error *err)
+{
+    *scene = (struct scene){.exponent = -1};
+    char *copy = strdup(path);
+    if (!copy)
+        return error_memory(err, (double)strlen(path));
+    enum result result = load_file(scene, copy, directories, directory_count, err);
+    if (result)
+        return result;
+    const struct scene_file *main_file = &scene->files[0];
+    if (is_directive(main_file, 0, "version") && main_file->list.tokens[1].kind == TOKEN_NUMBER)
+        scene->version = number_value(main_file, 1);
+    if (scene->working_gamma == 0)
+        scene->working_gamma = scene->version >= 3.7 ? 1 : GBUFFER_GAMMA_SRGB;
+    return RESULT_OK;
+}
+
+void scene_free(struct scene *scene)
+{
+    for (int i = 0; i < scene->file_count; i++) {
+        free(scene->files[i].path);
+        free(scene->files[i].includes);
+        buffer_free(&scene->files[i].source);
+        token_list_free(&scene->files[i].list);
+    }
+    free(scene->files);
+    buffer_free(&scene->names);
+    buffer_free(&scene->lights);
+    *scene = (struct scene){0};
+}
+
+/* ---- rewriting ---- */
+
+struct writer {
+    const struct scene *scene;
+    const struct scene_file *file;
+    const struct rules *rules;
+    enum scene_copy copy;
+    size_t at;       /* the source up to here is written */
+    int value_name;  /* the name in the last #declare of a block */
+    int value_end;   /* the token after that block: a texture there is a further layer */
+    bool in_macro;
+    int conditions;  /* depth of #if, #while, #for, #switch, #macro; which of them are macros */
+    bool is_macro[MAX_CONDITIONS];
+    struct buffer out;
+};
+
+static enum result copy_to(struct writer *writer, size_t end, struct error *err)
+{
+    enum result result = buffer_add(&writer->out, writer->file->source.data + writer->at, end - writer->at, err);
+    writer->at = end;
+    return result;
+}
+
+/* Leaves the source out up to `end` and writes `text` and the line ends of what is left out in its place. */
+static enum result replace_to(struct writer *writer, size_t end, const char *text, struct error *err)
+{
+    enum result result = buffer_add_text(&writer->out, text, err);
+    for (; writer->at < end; writer->at++)
+        if (!result && writer->file->source.data[writer->at] == '\n')
+            result = buffer_add(&writer->out, "\n", 1, err);
+    return result;
+}
+
+static enum result insert_before(struct writer *writer, int token, const char *text, struct error *err)
+{
+    enum result result = copy_to(writer, writer->file->list.tokens[token].begin, err);
+    return result ? result : buffer_add_text(&writer->out, text, err);
+}
+
+static enum result insert_after(struct writer *writer, int token, const char *text, struct error *err)
+{
+    enum result result = copy_to(writer, writer->file->list.tokens[token].end, err);
+    return result ? result : buffer_add_text(&writer->out, text, err);
+}
+
+/* Replaces the tokens from `first` to `last`. */
+static enum result replace(struct writer *writer, int first, int last, const char *text, struct error *err)
+{
+    enum result result = copy_to(writer, writer->file->list.tokens[first].begin, err);
+    return result ? result : replace_to(writer, writer->file->list.tokens[last].end, text, err);
+}
+
+static enum result write_tokens(struct writer *writer, int first, int end, struct error *err);
+
+/* In global_settings of a technical pass colours are numbers and light doesn't matter. POV-Ray keeps the first
+ * assumed_gamma of a scene, so the wrapper's own comes first and this one becomes a setting that the wrapper resets. */
+static enum result write_technical_settings(struct writer *writer, int first, int end, struct error *err)
+{
+    static const char *const lighting[] = {"photons", "radiosity", "subsurface", NULL};
+    enum result result = RESULT_OK;
+    for (int i = first; !result && i < end; i++) {
+        if (is_word(writer->file, i, "assumed_gamma")) {
+            bool srgb = is_word(writer->file, i + 1, "srgb");
+            result = replace(writer, i, i + srgb, srgb ? "" : "adc_bailout", err);
+        } else if (in_list(writer->file, i, lighting) && opens_block(writer->file, i)) {
+            int last = writer->file->list.tokens[i + 1].match;
+            result = replace(writer, i, last, "", err);
+            i = last;
+        }
+    }
+    return result;
+}
+
+/* camera, global_settings, background ... : statements that no union may contain. */
+static enum result write_statement(struct writer *writer, int token, int last, struct error *err)
+{
+    bool camera = is_word(writer->file, token, "camera"), settings = is_word(writer->file, token, "global_settings");
+    enum statements statements = writer->rules->statements;
+    if (statements == STATEMENTS_DROP || (statements == STATEMENTS_CAMERA && !camera && !settings))
+        return replace(writer, token, last, "", err);
+    enum result result = RESULT_OK;
+    if (statements != STATEMENTS_STAY)
+        result = insert_before(writer, token, "} ", err);
+    if (!result && settings && writer->rules->technical)
+        result = write_technical_settings(writer, token + 2, last, err);
+    if (!result && statements != STATEMENTS_STAY)
+        return insert_after(writer, last, " union { povgloss_nothing()", err);
+    return result ? result : copy_to(writer, writer->file->list.tokens[last].end, err);
+}
+
+/* A finish or texture that begins with a declared name takes over whether that was glossy: the exponent is kept in a
+ * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows). */
+static enum result inherit_gloss(struct writer *writer, int token, const char *variable, struct error *err)
+{
+    int name = find_name(&writer->scene->names, writer->file, token);
+    if (name < 0)
+        return RESULT_OK;
+    enum result result = copy_to(writer, writer->file->list.tokens[token].end, err);
+    return result ? result
+                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) #declare %s = povgloss_of_%d; #end", name,
+                                  variable, name);
+}
+
+static enum result write_finish(struct writer *writer, int token, int last, struct error *err)
+{
+    int brace = writer->file->list.tokens[token].parent;
+    bool in_texture = brace > 0 && is_word(writer->file, brace - 1, "texture");
+    enum result result =
+        insert_after(writer, token + 1, in_texture ? " povgloss_begin(povgloss_texture) " : " povgloss_begin(-1) ", err);
+    if (!result)
+        result = inherit_gloss(writer, token + 2, "povgloss_inherited", err);
+    if (!result)
+        result = write_tokens(writer, token + 2, last, err);
+    if (!result)
+        result = insert_before(writer, last, " povgloss_end() ", err);
+    return result;
+}
+
+static enum result write_texture(struct writer *writer, int token, int last, struct error *err)
+{
+    enum result result = insert_after(writer, token + 1, " #declare povgloss_texture = -1;", err);
+    if (!result)
+        result = inherit_gloss(writer, token + 2, "povgloss_texture", err);
+    if (!result)
+        result = buffer_add_text(&writer->out, " #declare povgloss_last = povgloss_texture; ", err);
+    return result ? result : write_tokens(writer, token + 2, last, err);
+}
+
+/* After `#declare X = finish {...}` or the last layer of `#declare X = texture {...}`: remembers whether X is glossy. */
+static enum result remember_gloss(struct writer *writer, int name_token, int last, struct error *err)
+{
+    int name = find_name(&writer->scene->names, writer->file, name_token), end = last + is_mark(writer->file, last + 1, ";");
+    if (name < 0 || is_word(writer->file, last + 1, "texture"))
+        return RESULT_OK;
+    enum result result = copy_to(writer, writer->file->list.tokens[end].end, err);
+    return result ? result : buffer_printf(&writer->out, err, " #declare povgloss_of_%d = povgloss_last; ", name);
+}
+
+static const char *const statement_words[] = {"camera",     "global_settings", "background", "fog",
+                                              "sky_sphere", "rainbow",         NULL};
+static const char *const texture_words[] = {"texture",  "pigment", "finish", "normal", "material", "interior_texture",
+                                            "interior", NULL};
+
+/* A light that the copy must not have twice goes, unless it brings an object along (looks_like, or a declared light that
+ * may have one): then it stays, and fades to nothing within any distance. */
+static enum result write_light(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    bool visible = file->list.tokens[token + 2].kind == TOKEN_WORD;
+    for (int i = token + 2; i < last; i++)
+        visible |= is_word(file, i, "looks_like");
+    if (!visible)
+        return replace(writer, token, last, "", err);
+    enum result result = write_tokens(writer, token + 2, last, err);
+    return result ? result : insert_before(writer, last, " fade_distance 1e-9 fade_power 20 ", err);
+}
+
+static bool is_declared_light(const struct writer *writer, int token)
+{
+    return is_word(writer->file, token, "object") && find_name(&writer->scene->lights, writer->file, token + 2) >= 0;
+}
+
+/* Writes the block `keyword { ... }` whose keyword is at `token` if it is changed by the rules; *next is then the token
+ * after it, else 0. */
+static enum result write_block(struct writer *writer, int token, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    const struct rules *rules = writer->rules;
+    int brace = token + 1, last = file->list.tokens[brace].match;
+    bool value = is_mark(file, token - 1, "=") || (token == writer->value_end && is_word(file, token, "texture"));
+    if (is_mark(file, token - 1, "="))
+        writer->value_name = token - 2;
+    if (value)
+        writer->value_end = last + 1;
+    *next = last + 1;
+    bool top = file->list.tokens[token].parent < 0 && !value;
+    if (top && (in_list(file, token, statement_words) || (is_word(file, token, "media") && !writer->in_macro)))
+        return write_statement(writer, token, last, err);
+    if (is_word(file, token, "camera") || is_word(file, token, "function"))
+        return copy_to(writer, file->list.tokens[last].end, err);
+    bool unlit = !rules->lights && !value && !inside(file, token, "light_group");
+    if (unlit && is_word(file, token, "light_source"))
+        return write_light(writer, token, last, err);
+    if (unlit && is_declared_light(writer, token))
+        return replace(writer, token, last, "", err);
+    bool finish = is_word(file, token, "finish");
+    if (rules->marks && (finish || is_word(file, token, "texture"))) {
+        enum result result =
+            finish ? write_finish(writer, token, last, err) : write_texture(writer, token, last, err);
+        if (!result && value)
+            result = remember_gloss(writer, writer->value_name, last, err);
+        return result;
+    }
+    if (rules->pigments && !value && is_word(file, token, "pigment") && !inside(file, token, "function"))
+        return replace(writer, token, last, "pigment { povgloss_pigment }", err);
+    if (rules->coded && is_word(file, token, "texture_list"))
+        return error_set(err, RESULT_DATA,
+                         "%s:%d: a mesh2 with a texture_list can't be taken yet: split it into one mesh for each texture",
+                         file->path, file->list.tokens[token].line);
+    if (rules->coded && in_list(file, token, texture_words)) {
+        if (value)
+            return copy_to(writer, file->list.tokens[last].end, err);
+        int parent = file->list.tokens[token].parent;
+        bool triangle = parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
+        return replace(writer, token, last, triangle ? "" : "transform {}", err);
+    }
+    *next = 0;
+    return RESULT_OK;
+}
+
+/* filter and transmit of a colour become 0: `transmit T` is `transmit 0*T`, `rgbt V` is `rgbt <1,1,1,0>*V`. */
+static enum result write_opaque(struct writer *writer, int token, struct error *err)
+{
+    static const struct {
+        const char *word, *factor;
+    } colours[] = {
+        {"rgbt", " <1,1,1,0>*"},  {"rgbf", " <1,1,1,0>*"},     {"rgbft", " <1,1,1,0,0>*"},   {"srgbt", " <1,1,1,0>*"},
+        {"srgbf", " <1,1,1,0>*"}, {"srgbft", " <1,1,1,0,0>*"}, {"transmit", " 0*"}, {"filter", " 0*"},
+    };
+    if (is_mark(writer->file, token - 1, "."))
+        return RESULT_OK;
+    for (size_t i = 0; i < sizeof colours / sizeof *colours; i++)
+        if (is_word(writer->file, token, colours[i].word))
+            return insert_after(writer, token + is_word(writer->file, token + 1, "all"), colours[i].factor, err);
+    return RESULT_OK;
+}
+
+static void track_directive(struct writer *writer, int token)
+{
+    static const char *const openers[] = {"if", "ifdef", "ifndef", "while", "for", "switch", "macro", NULL};
+    for (int i = 0; openers[i]; i++)
+        if (is_directive(writer->file, token, openers[i]) && writer->conditions < MAX_CONDITIONS)
+            writer->is_macro[writer->conditions++] = !strcmp(openers[i], "macro");
+    if (is_directive(writer->file, token, "end") && writer->conditions > 0)
+        writer->conditions--;
+    writer->in_macro = false;
+    for (int i = 0; i < writer->conditions; i++)
+        writer->in_macro |= writer->is_macro[i];
+}
+
+static enum result write_include(struct writer *writer, int token, struct error *err)
+{
+    for (int i = 0; i < writer->file->include_count; i++) {
+        if (writer->file->includes[i].token != token)
+            continue;
+        char *name = NULL, *quoted = NULL;
+        enum result result = scene_copy_name(writer->scene, writer->copy, writer->file->includes[i].file, &name, err);
+        if (!result)
+            result = text_printf(&quoted, err, "\"%s\"", name);
+        if (!result)
+            result = replace(writer, token, token, quoted, err);
+        free(name);
+        free(quoted);
+        return result;
+    }
+    return RESULT_OK;
+}
+
+static enum result write_tokens(struct writer *writer, int first, int end, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    enum result result = RESULT_OK;
+    for (int i = first, next; !result && i < end; i = next ? next : i + 1) {
+        next = 0;
+        if (file->list.tokens[i].kind == TOKEN_DIRECTIVE) {
+            track_directive(writer, i);
+            if (is_directive(file, i, "include"))
+                result = write_include(writer, i + 1, err);
+            else if (is_directive(file, i, "default") && writer->rules->coded && opens_block(file, i))
+                next = file->list.tokens[i + 1].match + 1;
+        } else if (file->list.tokens[i].kind == TOKEN_WORD) {
+            if (opens_block(file, i))
+                result = write_block(writer, i, &next, err);
+            if (!result && !next && writer->rules->marks && is_word(file, i, "reflection"))
+                result = insert_before(writer, i, "#declare povgloss_reflects = 1; ", err);
+            if (!result && !next && writer->rules->opaque)
+                result = write_opaque(writer, i, err);
+        }
+    }
+    return result;
+}
+
+enum result scene_copy_name(const struct scene *scene, enum scene_copy copy, int file, char **name, struct error *err)
+{
+    enum result result =
+        text_printf(name, err, "%s-%03d-%s", copy_rules[copy].name, file, base_name(scene->files[file].path));
+    for (char *c = result ? NULL : *name; c && *c; c++)
+        if (!isalnum((unsigned char)*c) && !strchr("._-", *c))
+            *c = '_';
+    return result;
+}
+
+int scene_file_of_copy(const struct scene *scene, const char *name)
+{
+    for (int copy = 0; copy < SCENE_COPY_COUNT; copy++) {
+        size_t length = strlen(copy_rules[copy].name);
+        if (strncmp(name, copy_rules[copy].name, length) || name[length] != '-' ||
+            strspn(name + length + 1, "0123456789") != 3)
+            continue;
+        int file = atoi(name + length + 1);
+        return file < scene->file_count ? file : -1;
+    }
+    return -1;
+}
+
+enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, const char *folder, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < scene->file_count; i++) {
+        const struct scene_file *file = &scene->files[i];
+        struct writer writer = {
+            .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy, .value_end = -1};
+        char *name = NULL, *path = NULL;
+        result = write_tokens(&writer, 0, file->list.count, err);
+        if (!result)
+            result = copy_to(&writer, file->source.size, err);
+        if (!result)
+            result = scene_copy_name(scene, copy, i, &name, err);
+        if (!result)
+            result = text_printf(&path, err, "%s/%s", folder, name);
+        if (!result)
+            result = file_write(path, &writer.out, err);
+        free(name);
+        free(path);
+        buffer_free(&writer.out);
+    }
+    return result;
+}
+
+enum result scene_save_names(const struct scene *scene, struct buffer *text, struct error *err)
+{
+    enum result result = RESULT_OK;
+    const char *name = scene->names.data, *end = name + scene->names.size;
+    for (int i = 0; !result && name < end; name += strlen(name) + 1, i++)
+        result = buffer_printf(text, err, "#ifdef (%s) #declare povgloss_saved_%d = %s; #end\n", name, i, name);
+    return result;
+}
+
+enum result scene_restore_names(const struct scene *scene, struct buffer *text, struct error *err)
+{
+    enum result result = RESULT_OK;
+    const char *name = scene->names.data, *end = name + scene->names.size;
+    for (int i = 0; !result && name < end; name += strlen(name) + 1, i++)
+        result = buffer_printf(text, err,
+                               "#ifdef (%s) #undef %s #end\n"
+                               "#ifdef (povgloss_saved_%d) #declare %s = povgloss_saved_%d; #end\n",
+                               name, name, i, name, i);
+    return result;
+}

@@ -1,0 +1,72 @@
+/* A POV-Ray scene with its include files, and the copies of it that the passes render.
+ *
+ * A copy is the user's text with some blocks replaced, line by line where it was, so that a message of POV-Ray about a
+ * copy names the line of the user's own file. What replaces them refers to names that the pass's wrapper declares
+ * (passes.c): the macros povgloss_begin and povgloss_end around the items of every finish, and povgloss_pigment.
+ */
+#ifndef POVGLOSS_SCENE_REWRITE_H
+#define POVGLOSS_SCENE_REWRITE_H
+
+#include "scene_lexer.h"
+
+struct scene_include {
+    int token; /* the string of the #include */
+    int file;  /* index of the file it names */
+};
+
+struct scene_file {
+    char *path; /* as the user knows it */
+    struct buffer source;
+    struct token_list list;
+    struct scene_include *includes;
+    int include_count;
+};
+
+struct scene {
+    struct scene_file *files; /* the first one is the scene */
+    int file_count;
+    struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
+    struct buffer lights;  /* names that were declared as a light_source, in the same form */
+    int gloss_calls;       /* calls of Gloss or Gloss_Roughness outside povgloss.inc */
+    double exponent;       /* the one exponent of all these calls; negative: they differ, or aren't plain numbers */
+    bool plain_mirrors;    /* some finish may reflect without being glossy */
+    double version;        /* of a #version that opens the scene; 0: none */
+    double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
+    const char *atmosphere; /* "fog", "rainbow" or "media" where the scene has one at top level, else NULL */
+};
+
+enum scene_copy {
+    SCENE_COPY_PLAIN,       /* the scene itself, inside a union */
+    SCENE_COPY_BASE,        /* the scene itself with finishes marked, not inside a union */
+    SCENE_COPY_BASE_SECOND, /* the same without lights and statements of the top level, inside a union */
+    SCENE_COPY_MIRROR,      /* opaque pigments of the pass, finishes marked, inside a union, with the camera */
+    SCENE_COPY_MIRROR_SECOND, /* the same without camera and global settings */
+    SCENE_COPY_REFLECTANCE, /* colours made opaque, finishes marked, inside a union, with the camera */
+    SCENE_COPY_CODED,       /* no textures at all: everything inherits that of the union around; with the camera */
+    SCENE_COPY_COUNT,
+};
+
+/* Reads the scene and every file it includes by a literal name. An include file is looked for in `directories`, in their
+ * order; one that isn't found stays as it is, for POV-Ray to look for. The caller frees the scene, also after a failure.
+ * RESULT_DATA, with file and line, for what can't be taken: an #include or an assumed_gamma that is not a literal. */
+MUST_CHECK enum result scene_load(struct scene *scene, const char *path, const char *const *directories,
+                                  int directory_count, struct error *err);
+void scene_free(struct scene *scene);
+
+/* Writes one copy of all files into the folder. RESULT_DATA, with file and line, for a construct that can't be taken. */
+MUST_CHECK enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, const char *folder,
+                                        struct error *err);
+
+/* Name of a file of a copy; the wrapper includes that of file 0. The caller frees it. */
+MUST_CHECK enum result scene_copy_name(const struct scene *scene, enum scene_copy copy, int file, char **name,
+                                       struct error *err);
+
+/* The index of the user's file behind a name of scene_copy_name, or -1. */
+int scene_file_of_copy(const struct scene *scene, const char *name);
+
+/* Statements that go before the first and between the two copies of a scene in one wrapper: names that the first one
+ * declared are undefined, names that came from the command line keep their values. */
+MUST_CHECK enum result scene_save_names(const struct scene *scene, struct buffer *text, struct error *err);
+MUST_CHECK enum result scene_restore_names(const struct scene *scene, struct buffer *text, struct error *err);
+
+#endif

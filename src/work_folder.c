@@ -1,0 +1,89 @@
+#include "work_folder.h"
+
+#include "mem.h"
+
+#include <errno.h>
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static enum result make_kept(struct work_folder *folder, const char *keep, struct error *err)
+{
+    /* rmdir tells an empty folder from a full one, and mkdir gives it back. */
+    if (rmdir(keep) && errno != ENOENT)
+        return error_set(err, RESULT_DATA, "%s: can't be the folder to keep: %s; name a new or an empty one", keep,
+                         strerror(errno));
+    if (mkdir(keep, 0777))
+        return error_set(err, RESULT_DATA, "%s: the folder can't be made: %s", keep, strerror(errno));
+    folder->path = realpath(keep, NULL);
+    folder->keep = true;
+    return folder->path ? RESULT_OK : error_set(err, RESULT_DATA, "%s: %s", keep, strerror(errno));
+}
+
+enum result work_folder_make(struct work_folder *folder, const char *keep, struct error *err)
+{
+    *folder = (struct work_folder){0};
+    if (keep)
+        return make_kept(folder, keep, err);
+    const char *parent = getenv("TMPDIR");
+    if (!parent || !*parent)
+        parent = "/tmp";
+    char *pattern;
+    enum result result = text_printf(&pattern, err, "%s/povgloss-XXXXXX", parent);
+    if (result)
+        return result;
+    if (mkdtemp(pattern)) {
+        folder->path = realpath(pattern, NULL);
+        if (!folder->path)
+            rmdir(pattern);
+    }
+    if (!folder->path)
+        result = error_set(err, RESULT_DATA, "%s: no temporary folder can be made there: %s; set TMPDIR to one that can be "
+                           "written", parent, strerror(errno));
+    free(pattern);
+    return result;
+}
+
+static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *walk)
+{
+    (void)status;
+    (void)type;
+    (void)walk;
+    remove(path);
+    return 0;
+}
+
+void work_folder_remove(struct work_folder *folder)
+{
+    if (folder->path && !folder->keep)
+        nftw(folder->path, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    free(folder->path);
+    *folder = (struct work_folder){0};
+}
+
+enum result work_folder_add(const struct work_folder *folder, const char *name, struct error *err)
+{
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s", folder->path, name);
+    if (result)
+        return result;
+    if (mkdir(path, 0777))
+        result = error_set(err, RESULT_DATA, "%s: the folder can't be made: %s", path, strerror(errno));
+    free(path);
+    return result;
+}
+
+enum result work_folder_link(const struct work_folder *folder, const char *name, const char *target, struct error *err)
+{
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s", folder->path, name);
+    if (result)
+        return result;
+    if (symlink(target, path))
+        result = error_set(err, RESULT_DATA, "%s: the link can't be made: %s", path, strerror(errno));
+    free(path);
+    return result;
+}
