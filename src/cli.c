@@ -1,0 +1,368 @@
+/* The command lines: a table of options, each with a function for its value.
+ *
+ * No getopt: povgloss takes these options from among POV-Ray's own switches (+W640, -A, Declare=x=1), one argument at a
+ * time. Values are parsed whole or refused.
+ */
+#include "cli.h"
+
+#include "lobe.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double radians_per_degree = 0.017453292519943295;
+
+struct cli_filter cli_filter_default(void)
+{
+    return (struct cli_filter){.filter = filter_options_default(), .bits = 8};
+}
+
+static bool is(const char *argument, const char *name)
+{
+    return strcmp(argument, name) == 0;
+}
+
+enum result cli_value(int argc, char **argv, int *index, const char *name, const char **value, struct error *err)
+{
+    const char *argument = argv[*index];
+    size_t length = strlen(name);
+    *value = NULL;
+    if (strncmp(argument, name, length) != 0)
+        return RESULT_OK;
+    if (argument[length] == '=') {
+        *value = argument + length + 1;
+        *index += 1;
+    } else if (argument[length] == '\0') {
+        if (*index + 1 >= argc)
+            return error_set(err, RESULT_USAGE, "%s needs a value", name);
+        *value = argv[*index + 1];
+        *index += 2;
+    }
+    return RESULT_OK;
+}
+
+enum result cli_number(const char *option, const char *text, double low, double high, double *value, struct error *err)
+{
+    char *end;
+    *value = 0;
+    double number = strtod(text, &end);
+    if (end == text || *end != '\0' || !(number >= low && number <= high) || isspace((unsigned char)*text))
+        return error_set(err, RESULT_USAGE, "%s %s: must be a number from %g to %g", option, text, low, high);
+    *value = number;
+    return RESULT_OK;
+}
+
+enum result cli_integer(const char *option, const char *text, int low, int high, int *value, struct error *err)
+{
+    char *end;
+    errno = 0;
+    long number = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || errno != 0 || number < low || number > high || isspace((unsigned char)*text))
+        return error_set(err, RESULT_USAGE, "%s %s: must be a whole number from %d to %d", option, text, low, high);
+    *value = (int)number;
+    return RESULT_OK;
+}
+
+/* Index of text in a NULL-terminated list of words. */
+static enum result choose(const char *option, const char *text, const char *const *words, int *chosen, struct error *err)
+{
+    char allowed[256] = "";
+    for (int i = 0; words[i]; i++) {
+        if (strcmp(text, words[i]) == 0) {
+            *chosen = i;
+            return RESULT_OK;
+        }
+        strncat(allowed, i > 0 ? ", " : "", sizeof allowed - strlen(allowed) - 1);
+        strncat(allowed, words[i], sizeof allowed - strlen(allowed) - 1);
+    }
+    return error_set(err, RESULT_USAGE, "%s %s: must be one of %s", option, text, allowed);
+}
+
+/* A share or an angle: the ends of the range are not allowed, or the lower one is not. */
+static enum result above_zero(const char *option, const char *text, double high, bool high_allowed, double *value,
+                              struct error *err)
+{
+    enum result result = cli_number(option, text, 0, high, value, err);
+    if (result != RESULT_OK || (*value > 0 && (high_allowed || *value < high)))
+        return result;
+    return error_set(err, RESULT_USAGE, "%s %s: must be above 0 and %s %g", option, text,
+                     high_allowed ? "at most" : "below", high);
+}
+
+static enum result set_phong(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    double phong;
+    enum result result = cli_number(name, value, 0, INFINITY, &phong, err);
+    if (result != RESULT_OK)
+        return result;
+    options->filter.phong = (float)phong;
+    options->filter.phong_override = true;
+    return RESULT_OK;
+}
+
+static enum result set_roughness(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    double roughness;
+    enum result result = cli_number(name, value, 0, 1, &roughness, err);
+    if (result != RESULT_OK)
+        return result;
+    options->filter.phong = (float)lobe_phong_from_roughness(roughness);
+    options->filter.phong_override = true;
+    return RESULT_OK;
+}
+
+static enum result set_mode(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    static const char *const words[] = {"paper", NULL};
+    int chosen;
+    (void)options;
+    return choose(name, value, words, &chosen, err);
+}
+
+static enum result set_weights(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    static const char *const words[] = {
+        [FILTER_WEIGHTS_EXACT] = "exact", [FILTER_WEIGHTS_TABLE] = "table", [FILTER_WEIGHTS_GAUSS] = "gauss", NULL};
+    int chosen;
+    enum result result = choose(name, value, words, &chosen, err);
+    if (result == RESULT_OK)
+        options->filter.weights = (enum filter_weights)chosen;
+    return result;
+}
+
+static enum result set_formula(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    static const char *const words[] = {[FILTER_FORMULA_PHONG] = "phong", [FILTER_FORMULA_MAX] = "max", NULL};
+    int chosen;
+    enum result result = choose(name, value, words, &chosen, err);
+    if (result == RESULT_OK)
+        options->filter.formula = (enum filter_formula)chosen;
+    return result;
+}
+
+static enum result set_window(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    static const char *const words[] = {[FILTER_WINDOW_ROUND] = "round", [FILTER_WINDOW_SQUARE] = "square", NULL};
+    int chosen;
+    enum result result = choose(name, value, words, &chosen, err);
+    if (result == RESULT_OK)
+        options->filter.window = (enum filter_window)chosen;
+    return result;
+}
+
+static enum result set_isa(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    static const char *const words[] = {[CPU_ISA_AUTO] = "auto", [CPU_ISA_SSE2] = "sse2", [CPU_ISA_AVX2] = "avx2",
+                                        [CPU_ISA_AVX512] = "avx512", NULL};
+    int chosen;
+    enum result result = choose(name, value, words, &chosen, err);
+    if (result != RESULT_OK)
+        return result;
+    if (!cpu_isa_supported((enum cpu_isa)chosen))
+        return error_set(err, RESULT_USAGE, "%s %s: this processor lacks it; leave it to --isa auto", name, value);
+    options->filter.isa = (enum cpu_isa)chosen;
+    return RESULT_OK;
+}
+
+static enum result set_max_radius(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    return cli_integer(name, value, 0, IMAGE_MAX_SIDE, &options->filter.max_radius_px, err);
+}
+
+static enum result set_radius_step(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    static const char *const words[] = {"1", "2", "4", "8", NULL};
+    int chosen;
+    enum result result = choose(name, value, words, &chosen, err);
+    if (result == RESULT_OK)
+        options->filter.radius_step = 1 << chosen;
+    return result;
+}
+
+static enum result set_energy(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    return above_zero(name, value, 1, false, &options->filter.energy, err);
+}
+
+static enum result set_max_angle(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    double degrees;
+    enum result result = above_zero(name, value, 90, true, &degrees, err);
+    if (result == RESULT_OK)
+        options->filter.max_angle_rad = degrees * radians_per_degree;
+    return result;
+}
+
+static enum result set_threads(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    return cli_integer(name, value, 0, 256, &options->filter.threads, err);
+}
+
+static enum result set_format(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    static const char *const words[] = {"exr", "png", NULL};
+    int chosen;
+    enum result result = choose(name, value, words, &chosen, err);
+    if (result == RESULT_OK)
+        options->format = words[chosen];
+    return result;
+}
+
+static enum result set_bits(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    static const char *const words[] = {"8", "16", NULL};
+    int chosen;
+    enum result result = choose(name, value, words, &chosen, err);
+    if (result == RESULT_OK)
+        options->bits = 8 << chosen;
+    return result;
+}
+
+typedef enum result set_function(const char *name, const char *value, struct cli_filter *options, struct error *err);
+
+static const struct {
+    const char *name;
+    set_function *set;
+} filter_options_table[] = {
+    {"--phong", set_phong},           {"--roughness", set_roughness},     {"--mode", set_mode},
+    {"--weights", set_weights},       {"--formula", set_formula},         {"--window", set_window},
+    {"--max-radius", set_max_radius}, {"--radius-step", set_radius_step}, {"--energy", set_energy},
+    {"--max-angle", set_max_angle},   {"--threads", set_threads},         {"--isa", set_isa},
+    {"--format", set_format},         {"--bits", set_bits},
+};
+
+const char cli_filter_help[] =
+    "Filter:\n"
+    "  --phong P            Phong exponent, 0 to inf (a mirror): replaces the passes' own at every\n"
+    "                       glossy pixel; what is not glossy stays so\n"
+    "  --roughness R        the same by roughness, 0 (a mirror) to 1: P = (1/R^4 - 1)/2\n"
+    "  --mode paper         Kulikova and Dmitriev, Fuzzy reflections rendering, 2002 (default)\n"
+    "  --weights W          exact (default), table (within 0.003 %), or gauss in place of the lobe\n"
+    "  --formula F          phong: cos^P, equation (3), default; max: 2 strength cos^P, equation (2);\n"
+    "                       the picture is the same\n"
+    "  --window W           round (default) or square\n"
+    "  --energy E           share of the lobe's energy in the window, 0 to 1 (default 0.99)\n"
+    "  --max-angle DEG      limit of the lobe's half-angle, up to 90 (default 90)\n"
+    "  --max-radius PX      limit of the window's radius; 0: none (default)\n"
+    "  --radius-step N      radius computed at every 1, 2, 4 (default) or 8 pixels\n"
+    "  --threads N          0: one for each processor (default)\n"
+    "  --isa I              auto (default), sse2, avx2 or avx512; the picture is the same\n"
+    "Output:\n"
+    "  --format F           exr (linear) or png (sRGB); default: by the name's extension\n"
+    "  --bits N             of a PNG: 8 (default) or 16\n"
+    "  --layers             EXR: also the blurred reflection (glossy.*) and the radius (radius.V)\n"
+    "  -q, --quiet          no messages but errors\n";
+
+enum result cli_filter_option(int argc, char **argv, int *index, struct cli_filter *options, bool *taken,
+                              struct error *err)
+{
+    const char *argument = argv[*index];
+    *taken = true;
+    if (is(argument, "--layers")) {
+        options->layers = true;
+        *index += 1;
+        return RESULT_OK;
+    }
+    if (is(argument, "--quiet") || is(argument, "-q")) {
+        options->quiet = true;
+        *index += 1;
+        return RESULT_OK;
+    }
+    for (size_t i = 0; i < sizeof filter_options_table / sizeof *filter_options_table; i++) {
+        const char *name = filter_options_table[i].name, *value;
+        enum result result = cli_value(argc, argv, index, name, &value, err);
+        if (result != RESULT_OK)
+            return result;
+        if (value)
+            return filter_options_table[i].set(name, value, options, err);
+    }
+    *taken = false;
+    return RESULT_OK;
+}
+
+enum result cli_check_output(const char *path, const struct cli_filter *options, struct error *err)
+{
+    enum image_format format;
+    enum result result = image_format_choose(path, options->format, &format, err);
+    if (result != RESULT_OK)
+        return result;
+    if (options->layers && format == IMAGE_FORMAT_PNG)
+        return error_set(err, RESULT_USAGE, "--layers: a PNG has no layers; write an EXR (--format exr)");
+    if (strcmp(path, "-") == 0 && isatty(STDOUT_FILENO))
+        return error_set(err, RESULT_USAGE, "standard output is a terminal: redirect it, or name a file with -o");
+    return RESULT_OK;
+}
+
+enum result cli_write(const char *path, const struct cli_filter *options, const struct image *image,
+                      const struct image *glossy, const struct image *radius, struct error *err)
+{
+    enum image_format format;
+    enum result result = image_format_choose(path, options->format, &format, err);
+    if (result != RESULT_OK)
+        return result;
+    const struct exr_channel layers[] = {
+        {"glossy.R", glossy, 0}, {"glossy.G", glossy, 1}, {"glossy.B", glossy, 2}, {"radius.V", radius, 0}};
+    int count = options->layers ? (int)(sizeof layers / sizeof *layers) : 0;
+    return image_write(path, format, options->bits, image, count > 0 ? layers : NULL, count, err);
+}
+
+/* One argument that begins with "-". */
+static enum result glossfilter_option(int argc, char **argv, int *index, struct cli_glossfilter *command,
+                                      struct error *err)
+{
+    const char *argument = argv[*index], *value;
+    if (is(argument, "-h") || is(argument, "--help") || is(argument, "--version")) {
+        *(is(argument, "--version") ? &command->version : &command->help) = true;
+        *index += 1;
+        return RESULT_OK;
+    }
+    enum result result = cli_value(argc, argv, index, "-o", &value, err);
+    if (result == RESULT_OK && !value)
+        result = cli_value(argc, argv, index, "--output", &value, err);
+    if (result != RESULT_OK || value) {
+        command->output = value;
+        return result;
+    }
+    bool taken;
+    result = cli_filter_option(argc, argv, index, &command->options, &taken, err);
+    if (result == RESULT_OK && !taken)
+        result = error_set(err, RESULT_USAGE, "%s: unknown option; see --help", argument);
+    return result;
+}
+
+enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *command, struct error *err)
+{
+    *command = (struct cli_glossfilter){.options = cli_filter_default()};
+    bool options_ended = false;
+    for (int index = 1; index < argc;) {
+        if (!options_ended && is(argv[index], "--")) {
+            options_ended = true;
+            index++;
+        } else if (!options_ended && argv[index][0] == '-' && argv[index][1] != '\0') {
+            enum result result = glossfilter_option(argc, argv, &index, command, err);
+            if (result != RESULT_OK)
+                return result;
+        } else if (command->input) {
+            return error_set(err, RESULT_USAGE, "%s: one passes file only; see --help", argv[index]);
+        } else {
+            command->input = argv[index++];
+        }
+    }
+    if (command->help || command->version)
+        return RESULT_OK;
+    if (!command->input)
+        return error_set(err, RESULT_USAGE, "no passes file: glossfilter PASSES.exr -o OUT.exr; see --help");
+    if (!command->output)
+        return error_set(err, RESULT_USAGE, "no output: say where with -o FILE; see --help");
+    return cli_check_output(command->output, &command->options, err);
+}
+
+void cli_complain(const char *program, const struct error *err)
+{
+    fprintf(stderr, "%s: %s\n", program, err->text);
+}

@@ -1,0 +1,66 @@
+/* The command lines: one table for the options that glossfilter and `povgloss render` share, one strict parser.
+ *
+ * Only this file and the programs print or exit.
+ */
+#ifndef POVGLOSS_CLI_H
+#define POVGLOSS_CLI_H
+
+#include "filter.h"
+#include "image_file.h"
+
+#include <stdbool.h>
+
+/* What the shared options say about filtering and writing. */
+struct cli_filter {
+    struct filter_options filter;
+    const char *format; /* "exr" or "png"; NULL: by the output's extension */
+    int bits;           /* of a PNG: 8 or 16 */
+    bool layers;        /* further channels in an EXR: the blurred reflection, the radius */
+    bool quiet;
+};
+
+struct cli_filter cli_filter_default(void);
+
+/* Looks at argv[*index]. If it is one of the shared options, applies it, moves *index past it and its value, and *taken is
+ * true; else *taken is false and nothing changes. A value follows as the next argument or after "=". RESULT_USAGE with
+ * the option and what is allowed for a value that is missing or wrong. */
+MUST_CHECK enum result cli_filter_option(int argc, char **argv, int *index, struct cli_filter *options, bool *taken,
+                                         struct error *err);
+
+/* The shared options' lines of --help. */
+extern const char cli_filter_help[];
+
+/* If argv[*index] is the option `name` (such as "--phong") with a value, *value is that and *index moves past both; else *value is
+ * NULL. RESULT_USAGE where the value is missing. */
+MUST_CHECK enum result cli_value(int argc, char **argv, int *index, const char *name, const char **value,
+                                 struct error *err);
+
+/* The whole text as a number from low to high (RESULT_USAGE names option, text and range otherwise, and for NaN). "inf" is a
+ * number where high is infinite. */
+MUST_CHECK enum result cli_number(const char *option, const char *text, double low, double high, double *value,
+                                  struct error *err);
+
+/* The same for a whole number. */
+MUST_CHECK enum result cli_integer(const char *option, const char *text, int low, int high, int *value,
+                                   struct error *err);
+
+/* Writes image and, with --layers, glossy.R/.G/.B and radius.V. */
+MUST_CHECK enum result cli_write(const char *path, const struct cli_filter *options, const struct image *image,
+                                 const struct image *glossy, const struct image *radius, struct error *err);
+
+/* Refuses a path and options that cli_write would refuse, before the work and not after it. */
+MUST_CHECK enum result cli_check_output(const char *path, const struct cli_filter *options, struct error *err);
+
+/* The command line of glossfilter. */
+struct cli_glossfilter {
+    struct cli_filter options;
+    const char *input, *output;
+    bool help, version;
+};
+
+MUST_CHECK enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *command, struct error *err);
+
+/* Prints "program: message" to standard error. */
+void cli_complain(const char *program, const struct error *err);
+
+#endif

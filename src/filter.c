@@ -1,0 +1,494 @@
+/* The paper's filter, equations (1) and (4) to (6).
+ *
+ * Four stages: the passes as planes of taps; the radius of every pixel (equations (4) and (5), or the gradient of the
+ * direction field); the sums of equation (1), by filter_kernel.c; antialiased edges. Each is shared out by rows.
+ */
+#include "filter.h"
+
+#include "bands.h"
+#include "filter_kernel.h"
+#include "lobe.h"
+#include "weights.h"
+
+#include <assert.h>
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* From this exponent on the lobe is narrower than any pixel. */
+static const double mirror_phong = 1e20;
+
+enum { EDGE_REACH_PX = 3 };
+
+struct filter {
+    const struct gbuffer *gbuffer;
+    const struct filter_options *options;
+    filter_kernel *kernel;
+    struct filter_taps taps;
+    float *planes;
+    unsigned char *kinds;
+    float *table;
+    double length_scale, radiance_scale; /* powers of two that keep squares and sums within the range of a float */
+    double radius_limit_px;
+    struct image radius;
+    struct image *glossy;
+};
+
+struct filter_options filter_options_default(void)
+{
+    return (struct filter_options){
+        .weights = FILTER_WEIGHTS_EXACT,
+        .formula = FILTER_FORMULA_PHONG,
+        .window = FILTER_WINDOW_ROUND,
+        .phong = NAN,
+        .energy = 0.99,
+        .max_angle_rad = 1.57079632679489662,
+        .radius_step = 4,
+    };
+}
+
+/* The pixel's exponent, or -1: not glossy. */
+static double exponent_at(const struct filter *filter, int x, int y)
+{
+    const struct image *phong = &filter->gbuffer->phong;
+    if (!phong->pixels)
+        return (double)filter->options->phong;
+    float value = image_row(phong, 0, y)[x];
+    if (!(value > 0))
+        return -1;
+    return (double)(filter->options->phong_override ? filter->options->phong : value);
+}
+
+/* The pixel as a tap: a, b with W = 1 or a unit direction with W = 0, and L0. False: not glossy. */
+struct sample {
+    double a[3], b[4], radiance[3];
+};
+
+static bool sample_read(const struct filter *filter, int x, int y, struct sample *sample)
+{
+    const struct gbuffer *gbuffer = filter->gbuffer;
+    if (exponent_at(filter, x, y) < 0)
+        return false;
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        sum += sample->a[i] = (double)image_row(&gbuffer->position, i, y)[x];
+        sum += sample->b[i] = (double)image_row(&gbuffer->endpoint, i, y)[x];
+        sum += sample->radiance[i] = (double)image_row(&gbuffer->specular, i, y)[x];
+    }
+    double w = (double)image_row(&gbuffer->endpoint, 3, y)[x];
+    if (!isfinite(sum + w) || w < 0)
+        return false;
+    double length = sqrt(sample->b[0] * sample->b[0] + sample->b[1] * sample->b[1] + sample->b[2] * sample->b[2]);
+    if (w == 0 && length == 0)
+        return false;
+    for (int i = 0; i < 3; i++)
+        sample->b[i] /= w > 0 ? w : length;
+    sample->b[3] = w > 0;
+    return true;
+}
+
+static void scales_find(struct filter *filter)
+{
+    double coordinate = 0, radiance = 0;
+    for (int y = 0; y < filter->taps.height; y++)
+        for (int x = 0; x < filter->taps.width; x++) {
+            struct sample sample;
+            if (!sample_read(filter, x, y, &sample))
+                continue;
+            for (int i = 0; i < 3; i++) {
+                coordinate = fmax(coordinate, fabs(sample.a[i]));
+                radiance = fmax(radiance, fabs(sample.radiance[i]));
+            }
+        }
+    filter->length_scale = coordinate > 0 ? ldexp(1, 20 - ilogb(coordinate)) : 1;
+    filter->radiance_scale = radiance > 0x1p100 ? ldexp(1, 100 - ilogb(radiance)) : 1;
+}
+
+static void taps_fill(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    const struct filter_taps *taps = &filter->taps;
+    size_t plane = taps->stride * (size_t)taps->height;
+    const bool max = filter->options->formula == FILTER_FORMULA_MAX;
+    const float gain = (float)(max ? lobe_weight_max(1, 1, 1) : lobe_weight(1, 1));
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < taps->width; x++) {
+            struct sample sample;
+            if (!sample_read(filter, x, y, &sample))
+                continue;
+            double b[4], largest = 0;
+            memcpy(b, sample.b, sizeof b);
+            for (int i = 0; i < 3 && b[3] > 0; i++) {
+                b[i] *= filter->length_scale;
+                largest = fmax(largest, fabs(b[i]));
+            }
+            /* So far away is a direction, the same from everywhere; its square would leave the range of a float. */
+            if (largest > 0x1p60) {
+                double length = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+                for (int i = 0; i < 3; i++)
+                    b[i] /= length;
+                b[3] = 0;
+            }
+            size_t column = (size_t)x + FILTER_BORDER;
+            float *tap = filter->planes + (size_t)y * taps->stride + column;
+            for (int i = 0; i < 4; i++)
+                tap[(size_t)(FILTER_PLANE_X + i) * plane] = (float)b[i];
+            tap[FILTER_PLANE_GAIN * plane] = gain;
+            for (int i = 0; i < 3; i++)
+                tap[(size_t)(FILTER_PLANE_R + i) * plane] = (float)(sample.radiance[i] * filter->radiance_scale);
+            filter->kinds[(size_t)y * (taps->stride / FILTER_LANES) + column / FILTER_LANES] |=
+                b[3] > 0 ? FILTER_KIND_POSITION : FILTER_KIND_DIRECTION;
+        }
+}
+
+static const float *tap_at(const struct filter *filter, enum filter_plane plane, int x, int y)
+{
+    return filter->taps.planes[plane] + (size_t)y * filter->taps.stride + (size_t)x + FILTER_BORDER;
+}
+
+static bool is_glossy(const struct filter *filter, int x, int y)
+{
+    return *tap_at(filter, FILTER_PLANE_GAIN, x, y) > 0;
+}
+
+/* a in the units of the taps. */
+static void position_at(const struct filter *filter, int x, int y, float a[3])
+{
+    for (int i = 0; i < 3; i++)
+        a[i] = (float)((double)image_row(&filter->gbuffer->position, i, y)[x] * filter->length_scale);
+}
+
+/* Unit direction from a to the tap's b, and its distance (1 for W = 0); a distance of 0 leaves the direction 0. */
+static double direction_to(const struct filter *filter, const float a[3], int x, int y, double direction[3])
+{
+    double w = (double)*tap_at(filter, FILTER_PLANE_W, x, y), square = 0;
+    for (int i = 0; i < 3; i++) {
+        direction[i] = (double)*tap_at(filter, FILTER_PLANE_X + (unsigned)i, x, y) - w * (double)a[i];
+        square += direction[i] * direction[i];
+    }
+    double distance = sqrt(square);
+    for (int i = 0; i < 3 && distance > 0; i++)
+        direction[i] /= distance;
+    return distance;
+}
+
+/* Pixels in which the direction to the endpoint turns by the half-angle, where the camera is not known. */
+static double radius_from_gradient(const struct filter *filter, int x, int y, double half_angle)
+{
+    static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    float a[3];
+    double own[3], step = INFINITY;
+    position_at(filter, x, y, a);
+    if (direction_to(filter, a, x, y, own) == 0)
+        return 0;
+    for (int n = 0; n < 4; n++) {
+        int u = x + neighbours[n][0], v = y + neighbours[n][1];
+        if (u < 0 || v < 0 || u >= filter->taps.width || v >= filter->taps.height || !is_glossy(filter, u, v))
+            continue;
+        double other[3], square = 0;
+        if (direction_to(filter, a, u, v, other) == 0)
+            continue;
+        for (int i = 0; i < 3; i++)
+            square += (other[i] - own[i]) * (other[i] - own[i]);
+        step = fmin(step, 2 * asin(fmin(sqrt(square) / 2, 1)));
+    }
+    return isinf(step) ? 0 : half_angle / step;
+}
+
+/* Equations (4) and (5) with the picture's and the user's limit, for a glossy pixel. */
+static double radius_at(const struct filter *filter, int x, int y)
+{
+    const struct gbuffer *gbuffer = filter->gbuffer;
+    double phong = exponent_at(filter, x, y), radius;
+    if (phong >= mirror_phong)
+        return 0;
+    double half_angle = lobe_half_angle(phong, filter->options->energy, filter->options->max_angle_rad);
+    if (gbuffer->has_eye && gbuffer->view_angle > 0) {
+        struct sample sample;
+        double s = 0, r = 0;
+        sample_read(filter, x, y, &sample);
+        for (int i = 0; i < 3; i++) {
+            double to_eye = sample.a[i] - (double)gbuffer->eye[i], to_end = sample.b[i] - sample.a[i];
+            s += to_eye * to_eye;
+            r += to_end * to_end;
+        }
+        double alpha = lobe_alpha(half_angle, sqrt(s), sample.b[3] > 0 ? sqrt(r) : INFINITY);
+        radius = lobe_radius_px(alpha, filter->taps.width, (double)gbuffer->view_angle);
+    } else {
+        radius = radius_from_gradient(filter, x, y, half_angle);
+    }
+    return fmin(radius, filter->radius_limit_px);
+}
+
+/* Between the pixels of the coarse grid that are glossy with the same exponent; NaN where none is. */
+static double radius_interpolate(const struct filter *filter, int x, int y)
+{
+    int step = filter->options->radius_step, left = x / step * step, top = y / step * step;
+    double sum = 0, weights = 0, phong = exponent_at(filter, x, y);
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; i < 2; i++) {
+            int u = left + i * step, v = top + j * step;
+            double weight = (1 - abs(x - u) / (double)step) * (1 - abs(y - v) / (double)step);
+            if (weight == 0 || u >= filter->taps.width || v >= filter->taps.height || !is_glossy(filter, u, v))
+                continue;
+            if (exponent_at(filter, u, v) != phong)
+                continue;
+            sum += weight * (double)image_row(&filter->radius, 0, v)[u];
+            weights += weight;
+        }
+    return sum / weights;
+}
+
+static void radius_coarse(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    int step = filter->options->radius_step;
+    for (int row = first; row < end; row++)
+        for (int x = 0; x < filter->taps.width; x += step)
+            if (is_glossy(filter, x, row * step))
+                image_row(&filter->radius, 0, row * step)[x] = (float)radius_at(filter, x, row * step);
+}
+
+static void radius_fine(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    int step = filter->options->radius_step;
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < filter->taps.width; x++) {
+            if ((x % step == 0 && y % step == 0) || !is_glossy(filter, x, y))
+                continue;
+            double radius = radius_interpolate(filter, x, y);
+            image_row(&filter->radius, 0, y)[x] = (float)(isnan(radius) ? radius_at(filter, x, y) : radius);
+        }
+}
+
+static enum filter_shape shape_of(enum filter_weights weights)
+{
+    switch (weights) {
+    case FILTER_WEIGHTS_TABLE:
+        return FILTER_SHAPE_TABLE;
+    case FILTER_WEIGHTS_GAUSS:
+        return FILTER_SHAPE_GAUSS;
+    case FILTER_WEIGHTS_EXACT:
+        break;
+    }
+    return FILTER_SHAPE_POWER;
+}
+
+/* cos^p = (1 + t)^(-p/2), t = tan^2(theta), as the kernel wants it. */
+static double slope_of(enum filter_shape shape, double phong)
+{
+    switch (shape) {
+    case FILTER_SHAPE_TABLE:
+        return phong / 2 * log(2) * WEIGHTS_TABLE_STEPS;
+    case FILTER_SHAPE_GAUSS:
+        return phong / 2 / log(2);
+    case FILTER_SHAPE_POWER:
+        break;
+    }
+    return phong / 2;
+}
+
+/* Fills lane l with pixel (x, y). False: nothing to sum, the result is L0. */
+static bool lane_fill(const struct filter *filter, int x, int y, int l, struct filter_lanes *lanes)
+{
+    double radius = (double)image_row(&filter->radius, 0, y)[x];
+    float a[3];
+    double direction[3];
+    position_at(filter, x, y, a);
+    double distance = direction_to(filter, a, x, y, direction);
+    if (radius < 1 || distance == 0)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        lanes->a[i][l] = a[i];
+        lanes->direction[i][l] = (float)direction[i];
+    }
+    for (int i = 0; i < 4; i++)
+        lanes->b[i][l] = *tap_at(filter, FILTER_PLANE_X + (unsigned)i, x, y);
+    lanes->kinds |= lanes->b[3][l] > 0 ? FILTER_KIND_POSITION : FILTER_KIND_DIRECTION;
+    lanes->distance[l] = (float)distance;
+    lanes->slope[l] = (float)slope_of(filter->taps.shape, exponent_at(filter, x, y));
+    lanes->narrow = lanes->narrow && lanes->slope[l] >= FILTER_NARROW_SLOPE;
+    lanes->limit[l] = (float)(radius * radius);
+    return true;
+}
+
+static void blur(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    int width = filter->taps.width;
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < width; x += FILTER_LANES) {
+            struct filter_lanes lanes = {.x = x, .y = y, .narrow = true};
+            struct filter_sums sums;
+            bool any = false;
+            for (int l = 0; l < FILTER_LANES; l++) {
+                lanes.limit[l] = -1;
+                if (x + l < width && is_glossy(filter, x + l, y) && lane_fill(filter, x + l, y, l, &lanes))
+                    any = true;
+            }
+            if (any)
+                filter->kernel(&filter->taps, &lanes, &sums);
+            for (int l = 0; l < FILTER_LANES && x + l < width; l++) {
+                if (!is_glossy(filter, x + l, y))
+                    continue;
+                for (int i = 0; i < 3; i++) {
+                    double value = (double)image_row(&filter->gbuffer->specular, i, y)[x + l];
+                    if (lanes.limit[l] >= 0 && sums.value[3][l] > 0)
+                        value = sums.value[i][l] / sums.value[3][l] / filter->radiance_scale;
+                    image_row(filter->glossy, i, y)[x + l] = (float)fmax(-FLT_MAX, fmin(value, FLT_MAX));
+                }
+            }
+        }
+}
+
+/* Mean of the results of the nearest ring of pixels that has glossy ones. */
+static void edge_fill(const struct filter *filter, int x, int y)
+{
+    for (int reach = 1; reach <= EDGE_REACH_PX; reach++) {
+        double sum[3] = {0};
+        int count = 0;
+        for (int v = y - reach; v <= y + reach; v++)
+            for (int u = x - reach; u <= x + reach; u++) {
+                if (u < 0 || v < 0 || u >= filter->taps.width || v >= filter->taps.height || !is_glossy(filter, u, v))
+                    continue;
+                for (int i = 0; i < 3; i++)
+                    sum[i] += (double)image_row(filter->glossy, i, v)[u];
+                count++;
+            }
+        for (int i = 0; i < 3 && count > 0; i++)
+            image_row(filter->glossy, i, y)[x] = (float)(sum[i] / count);
+        if (count > 0)
+            return;
+    }
+}
+
+static void edges(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    const struct image *reflectance = &filter->gbuffer->reflectance;
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < filter->taps.width; x++) {
+            bool reflects = false;
+            for (int i = 0; i < 3; i++)
+                reflects = reflects || image_row(reflectance, i, y)[x] > 0;
+            if (reflects && !is_glossy(filter, x, y))
+                edge_fill(filter, x, y);
+        }
+}
+
+static enum result check_plane(const struct image *image, const char *name, int channels, const struct image *size,
+                               struct error *err)
+{
+    if (!image->pixels)
+        return error_set(err, RESULT_DATA, "there is no %s pass", name);
+    if (image->width != size->width || image->height != size->height || image->channels < channels)
+        return error_set(err, RESULT_DATA, "the %s pass is %d x %d pixels of %d channels, not %d x %d of %d", name,
+                         image->width, image->height, image->channels, size->width, size->height, channels);
+    return RESULT_OK;
+}
+
+static enum result check(const struct gbuffer *gbuffer, const struct filter_options *options, struct error *err)
+{
+    assert(options->energy > 0 && options->energy < 1 && options->max_angle_rad > 0 && options->max_radius_px >= 0);
+    assert(options->radius_step > 0 && options->threads >= 0 && !(options->phong < 0));
+    const struct image *size = &gbuffer->specular;
+    enum result result = check_plane(size, "specular", 3, size, err);
+    if (result == RESULT_OK)
+        result = check_plane(&gbuffer->position, "position", 3, size, err);
+    if (result == RESULT_OK)
+        result = check_plane(&gbuffer->endpoint, "endpoint", 4, size, err);
+    if (result == RESULT_OK && gbuffer->phong.pixels)
+        result = check_plane(&gbuffer->phong, "phong", 1, size, err);
+    if (result == RESULT_OK && gbuffer->reflectance.pixels)
+        result = check_plane(&gbuffer->reflectance, "reflectance", 3, size, err);
+    if (result != RESULT_OK)
+        return result;
+    if (isnan(options->phong) && (!gbuffer->phong.pixels || options->phong_override))
+        return error_set(err, RESULT_USAGE, "no Phong exponent: the passes have no phong.V channel; give one with "
+                                            "--phong or --roughness");
+    if (!cpu_isa_supported(options->isa))
+        return error_set(err, RESULT_USAGE, "this processor lacks the instruction set asked for; use --isa auto");
+    return RESULT_OK;
+}
+
+static enum result filter_alloc(struct filter *filter, struct error *err)
+{
+    static filter_kernel *const kernels[CPU_ISA_COUNT] = {[CPU_ISA_SSE2] = filter_kernel_sse2,
+                                                          [CPU_ISA_AVX2] = filter_kernel_avx2,
+                                                          [CPU_ISA_AVX512] = filter_kernel_avx512};
+    const struct filter_options *options = filter->options;
+    const int width = filter->gbuffer->specular.width, height = filter->gbuffer->specular.height;
+    filter->kernel = kernels[options->isa == CPU_ISA_AUTO ? cpu_isa_best() : options->isa];
+    filter->radius_limit_px = hypot(width, height);
+    if (options->max_radius_px > 0)
+        filter->radius_limit_px = fmin(filter->radius_limit_px, options->max_radius_px);
+
+    size_t stride = ((size_t)width + FILTER_LANES - 1) / FILTER_LANES * FILTER_LANES + 2 * FILTER_BORDER;
+    size_t plane = stride * (size_t)height, blocks = plane / FILTER_LANES;
+    size_t bytes = plane * FILTER_PLANES * sizeof(float);
+    filter->planes = aligned_alloc(64, bytes);
+    filter->kinds = calloc(blocks, 1);
+    filter->table = malloc(WEIGHTS_TABLE_SIZE * sizeof *filter->table);
+    if (!filter->planes || !filter->kinds || !filter->table)
+        return error_memory(err, (double)bytes);
+    memset(filter->planes, 0, bytes);
+    weights_table_build(filter->table);
+    filter->taps = (struct filter_taps){
+        .width = width,
+        .height = height,
+        .stride = stride,
+        .kinds = filter->kinds,
+        .square = options->window == FILTER_WINDOW_SQUARE,
+        .shape = shape_of(options->weights),
+        .table = filter->table,
+    };
+    for (int i = 0; i < FILTER_PLANES; i++)
+        filter->taps.planes[i] = filter->planes + (size_t)i * plane;
+    enum result result = image_alloc(&filter->radius, width, height, 1, err);
+    if (result == RESULT_OK)
+        result = image_alloc(filter->glossy, width, height, 3, err);
+    return result;
+}
+
+enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_options *options, struct image *glossy,
+                          struct image *radius, struct error *err)
+{
+    struct filter filter = {.gbuffer = gbuffer, .options = options, .glossy = glossy};
+    const int threads = options->threads, step = options->radius_step;
+    *glossy = (struct image){0};
+    if (radius)
+        *radius = (struct image){0};
+    enum result result = check(gbuffer, options, err);
+    if (result != RESULT_OK)
+        return result;
+    result = filter_alloc(&filter, err);
+    if (result != RESULT_OK)
+        goto out;
+    const int height = filter.taps.height;
+
+    scales_find(&filter);
+    result = bands_run(height, 16, threads, taps_fill, &filter, err);
+    if (result == RESULT_OK)
+        result = bands_run((height + step - 1) / step, 16, threads, radius_coarse, &filter, err);
+    if (result == RESULT_OK)
+        result = bands_run(height, 16, threads, radius_fine, &filter, err);
+    if (result == RESULT_OK)
+        result = bands_run(height, 1, threads, blur, &filter, err);
+    if (result == RESULT_OK && gbuffer->reflectance.pixels)
+        result = bands_run(height, 16, threads, edges, &filter, err);
+    if (result == RESULT_OK && radius) {
+        *radius = filter.radius;
+        filter.radius = (struct image){0};
+    }
+
+out:
+    if (result != RESULT_OK)
+        image_free(glossy);
+    image_free(&filter.radius);
+    free(filter.table);
+    free(filter.kinds);
+    free(filter.planes);
+    return result;
+}

@@ -1,0 +1,75 @@
+/* The innermost loops of the filter: equation (1) for 16 neighbouring pixels of a row at once.
+ *
+ * filter_kernel.c is compiled once per instruction set; all builds give the same bits.
+ */
+#ifndef POVGLOSS_FILTER_KERNEL_H
+#define POVGLOSS_FILTER_KERNEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum {
+    FILTER_LANES = 16,
+    /* Unusable columns left and right of the picture, so that no lane reads outside and no column needs a test. */
+    FILTER_BORDER = FILTER_LANES
+};
+
+/* Channels of the planes of taps. */
+enum filter_plane {
+    FILTER_PLANE_X, /* b: a position (W = 1) or a unit direction (W = 0) */
+    FILTER_PLANE_Y,
+    FILTER_PLANE_Z,
+    FILTER_PLANE_W,
+    FILTER_PLANE_GAIN, /* 0: this tap counts for nothing, and its other planes are 0 */
+    FILTER_PLANE_R,    /* L0 */
+    FILTER_PLANE_G,
+    FILTER_PLANE_B,
+    FILTER_PLANES
+};
+
+/* What kinds of usable endpoints a block of 16 columns holds. */
+enum { FILTER_KIND_POSITION = 1, FILTER_KIND_DIRECTION = 2 };
+
+enum filter_shape { FILTER_SHAPE_POWER, FILTER_SHAPE_TABLE, FILTER_SHAPE_GAUSS };
+
+/* All pixels as taps: what a neighbour gives. Column x of the picture is column x + FILTER_BORDER of the planes. */
+struct filter_taps {
+    int width, height;                   /* of the picture */
+    size_t stride;                       /* floats from row to row of a plane: a multiple of 16 */
+    const float *planes[FILTER_PLANES];
+    const unsigned char *kinds;          /* stride / 16 blocks a row */
+    bool square;                         /* window: max(|dx|, |dy|) <= rho, else dx^2 + dy^2 <= rho^2 */
+    enum filter_shape shape;
+    const float *table;                  /* weights_table_build(), for FILTER_SHAPE_TABLE */
+};
+
+/* What is computed: 16 pixels of row y, the first at column x (a multiple of 16). Unused lanes: limit -1, the rest 0. */
+struct filter_lanes {
+    int x, y;
+    unsigned char kinds;               /* of the used lanes */
+    bool narrow;                       /* the slope of every used lane is at least FILTER_NARROW_SLOPE */
+    float a[3][FILTER_LANES];
+    float b[4][FILTER_LANES];          /* as in the planes */
+    float direction[3][FILTER_LANES];  /* unit vector from a to b */
+    float distance[FILTER_LANES];      /* |b - a|; 1 for a direction */
+    /* The weight is 2^-(slope log2(1 + t)) for the power, table[slope log2(1 + t)] for the table, 2^-(slope t) for the Gaussian;
+     * t = tan^2(theta). */
+    float slope[FILTER_LANES];
+    float limit[FILTER_LANES];         /* rho^2, pixels^2 */
+};
+
+/* sum f L0 (R, G, B) and sum f of equation (1). */
+struct filter_sums {
+    double value[4][FILTER_LANES];
+};
+
+/* From this slope of the power (p = 240 and more) on, the weights are below 2^-120, that is 0, before tan(theta) reaches 1. */
+#define FILTER_NARROW_SLOPE 120.0f
+
+/* Sums over the window of every lane (lanes with a limit below 0: sums of 0). Weights below 2^-120 are 0; so are those of taps at
+ * 90 degrees and more from a lane's direction. */
+typedef void filter_kernel(const struct filter_taps *taps, const struct filter_lanes *lanes, struct filter_sums *sums);
+
+filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;
+
+#endif
