@@ -5,8 +5,6 @@
 .SUFFIXES:
 
 VERSION := 0.1.0
-PREFIX ?= /usr/local
-DESTDIR ?=
 
 # A sanitized build lives in a folder of its own: SANITIZE=address,undefined or SANITIZE=thread.
 SANITIZE ?=
@@ -20,14 +18,15 @@ CPPFLAGS += -D_GNU_SOURCE -DPOVGLOSS_VERSION='"$(VERSION)"' -Isrc
 CFLAGS += -std=c11 -O3 -g -ffp-contract=off -fno-math-errno -fno-trapping-math -pthread \
           -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla
 LDLIBS += -lOpenEXRCore -lpng -lm -pthread
-EXR_CFLAGS := $(shell pkg-config --cflags OpenEXR 2>/dev/null)
+# Asked for when it is used: `make deps` may install it first.
+EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)
 ifneq ($(SANITIZE),)
 CFLAGS += -fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer
 LDFLAGS += -fsanitize=$(SANITIZE)
 endif
 
 PACKAGES := gcc make libc6-dev pkg-config povray povray-includes libopenexr-dev libpng-dev \
-            libcmocka-dev openimageio-tools perl
+            libcmocka-dev openimageio-tools perl coreutils findutils
 
 PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(wildcard src/main_*.c))
 # The kernel is compiled once per instruction set from one source.
@@ -38,8 +37,11 @@ LIB_OBJECTS := $(LIB_SOURCES:src/%.c=$(BUILD)/obj/%.o) $(if $(wildcard src/filte
 LIBRARY := $(BUILD)/libgloss.a
 UNIT_TESTS := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/test_*.c))
 
-.PHONY: all deps check scenes figures demo clean help
-all: $(PROGRAMS)
+TOOLS := $(patsubst tests/tools/%.c,$(BUILD)/tests/tools/%,$(wildcard tests/tools/*.c))
+SCENES := $(patsubst povscenes/%.pov,build/scenes/%.png,$(wildcard povscenes/*.pov))
+
+.PHONY: all
+all: $(PROGRAMS) ## the programs povgloss and glossfilter, in build/bin
 
 $(BUILD)/obj/filter_kernel_sse2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=sse2
 $(BUILD)/obj/filter_kernel_avx2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=avx2 -mavx2
@@ -75,8 +77,71 @@ $(BUILD)/tests/%: tests/unit/%.c $(LIBRARY) $(FLAGS_STAMP)
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MMD -MP -o $@ $< $(LIBRARY) -lcmocka $(LDLIBS)
 
-.SECONDARY:
--include $(wildcard $(BUILD)/obj/*.d $(BUILD)/tests/*.d)
+$(BUILD)/tests/tools/%: tests/tools/%.c $(LIBRARY) $(FLAGS_STAMP)
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MMD -MP -o $@ $< $(LIBRARY) $(LDLIBS)
 
+# What follows `deps` on the command line needs what it installs.
+ifneq ($(filter deps,$(MAKECMDGOALS)),)
+.NOTPARALLEL:
+endif
+
+.PHONY: deps
+deps: ## install the Debian packages that building and testing need (apt-get, through sudo when not root)
+	@missing=; for package in $(PACKAGES); do \
+	    dpkg-query -W -f '$${Status}\n' $$package 2>/dev/null | grep -q '^install ok installed$$' || \
+	        missing="$$missing $$package"; \
+	done; \
+	if [ -n "$$missing" ]; then \
+	    sudo=; [ "$$(id -u)" = 0 ] || sudo=sudo; \
+	    $$sudo apt-get update -qq && \
+	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing; \
+	fi
+
+.PHONY: demo
+demo: build/demo.png ## render the demo scene
+	@echo "The picture is build/demo.png"
+
+build/demo.png: povscenes/interior.pov povscenes/povgloss.inc $(PROGRAMS)
+	$(BUILD)/bin/povgloss render povscenes/interior.pov +W640 +H480 +A0.3 Declare=Roughness=0.1 -o $@
+
+.PHONY: scenes
+scenes: $(SCENES) ## render every povscenes/*.pov to build/scenes/*.png
+
+build/scenes/%.png: povscenes/%.pov povscenes/povgloss.inc $(PROGRAMS)
+	@mkdir -p $(@D)
+	$(BUILD)/bin/povgloss render $< +W640 +H480 +A0.3 -o $@
+
+# The passes are rendered once; each figure filters them with another roughness.
+FIGURES := build/figures/figure2.png build/figures/figure3.png build/figures/figure4.png
+.PHONY: figures
+figures: build/figures/figures.png ## the paper's Figures 2 to 4: one scene at roughness 0 %, 10 % and 50 %
+	@echo "The figures are $(FIGURES); side by side: $<"
+
+build/figures/passes.exr: povscenes/interior.pov povscenes/povgloss.inc $(PROGRAMS)
+	@mkdir -p $(@D)
+	$(BUILD)/bin/povgloss passes $< +W640 +H480 +A0.3 -o $@
+
+build/figures/figure2.png: ROUGHNESS := 0
+build/figures/figure3.png: ROUGHNESS := 0.1
+build/figures/figure4.png: ROUGHNESS := 0.5
+$(FIGURES): build/figures/passes.exr
+	$(BUILD)/bin/glossfilter $< --roughness $(ROUGHNESS) -o $@
+
+build/figures/figures.png: $(FIGURES)
+	oiiotool $^ --mosaic:pad=8 3x1 -o $@
+
+.PHONY: check
+check: $(PROGRAMS) $(UNIT_TESTS) $(TOOLS) ## all tests; SANITIZE=address,undefined tests a sanitized build
+	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools CC=$(CC) scripts/check.sh $(UNIT_TESTS)
+
+.PHONY: clean
 clean: ## remove everything that make built
 	rm -rf build
+
+.PHONY: help
+help: ## this list
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1 \t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
+
+.SECONDARY:
+-include $(wildcard $(BUILD)/obj/*.d $(BUILD)/tests/*.d $(BUILD)/tests/tools/*.d)

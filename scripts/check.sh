@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Runs every test under prove and closes with one line, `N passed, N failed`, over all of them.
+#
+# Arguments: the unit test programs. BIN and TOOLS name the folders of the programs and of the tests' own tools.
+set -u
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+
+export CMOCKA_MESSAGE_OUTPUT=TAP BIN TOOLS
+prove --exec '' --merge --timer --verbose "$@" tests/e2e/[!l]*.sh >"$log"
+status=$?
+
+# What failed and why, and prove's own line for every test program; not each test that passed.
+grep -vE '^ok [0-9]|^1\.\.[0-9]+$|^ok$|^# ok [0-9]' "$log"
+passed=$(grep -cE '^ok [0-9]' "$log")
+failed=$(grep -cE '^not ok [0-9]' "$log")
+# A program that died or ran fewer tests than it planned has failed as well.
+if [ "$status" -ne 0 ] && [ "$failed" -eq 0 ]; then
+    failed=1
+fi
+echo "$passed passed, $failed failed"
+[ "$status" -eq 0 ] && [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
