@@ -36,7 +36,11 @@ struct filter_options filter_options_default(void);
  *
  * Glossy is a pixel whose exponent is above 0 (with no phong plane: whatever the options say, 0 included), whose position,
  * endpoint and specular are finite, whose endpoint is not all zero and has W >= 0. Only glossy pixels are averaged over, so no
- * NaN or infinity spreads. W is divided out; lengths from 1e-18 to 1e18 times the largest coordinate of a position matter.
+ * NaN or infinity spreads. W is divided out. An endpoint 1e12 times as far out as the farthest position counts as a direction;
+ * lengths below 1e-24 of the farthest position's count as 0.
+ *
+ * Weights are relative to the pixel's own endpoint and good to about 6e-7 + 6e-8 sqrt(p) (float positions are no better), tabulated
+ * ones to 3.2e-5 more.
  *
  * The pixel itself always counts: with a radius below 1 (a mirror: p of 1e20 and more; a = b, where equation (4) gives 0) the
  * result is L0 itself. Without an eye or view angle the radius is Theta over the angle between the endpoints of neighbouring
