@@ -182,7 +182,8 @@ static enum result read_channel_list(const struct reader *reader, struct exr_con
     return RESULT_OK;
 }
 
-/* The chunk whose first pixel is (x, y) of the image, and checks of it that OpenEXRCore 3.1 leaves out. */
+/* The chunk whose first pixel is (x, y) of the image. OpenEXRCore 3.1 takes an uncompressed chunk of any size, and what
+ * is missing of it would be whatever the memory held. */
 static exr_result_t find_chunk(const struct reader *reader, int x, int y, exr_chunk_info_t *chunk)
 {
     exr_result_t code = reader->tiled ? exr_read_tile_chunk_info(reader->context, 0, x / reader->block_width,
@@ -191,7 +192,7 @@ static exr_result_t find_chunk(const struct reader *reader, int x, int y, exr_ch
     if (code)
         return code;
     if (chunk->width < 1 || chunk->height < 1 || chunk->width > reader->width - x ||
-        chunk->height > reader->height - y || chunk->packed_size > chunk->unpacked_size ||
+        chunk->height > reader->height - y ||
         (chunk->compression == EXR_COMPRESSION_NONE && chunk->packed_size != chunk->unpacked_size))
         return EXR_ERR_CORRUPT_CHUNK;
     return EXR_ERR_SUCCESS;
@@ -317,11 +318,17 @@ enum result exr_read(const char *path, struct exr_contents *contents, struct err
                            reader.name, IMAGE_MAX_SIDE, exr_get_default_error_message(code));
         goto out;
     }
-    if ((result = check_parts(&reader, err)) || (result = check_compression(&reader, err)) ||
-        (result = read_geometry(&reader, err)) || (result = read_channel_list(&reader, contents, &channel_count, err)) ||
-        (result = read_attributes(&reader, &contents->attributes, err)) ||
-        (result = read_pixels(&reader, contents, channel_count, err)))
-        goto out;
+    result = check_parts(&reader, err);
+    if (!result)
+        result = check_compression(&reader, err);
+    if (!result)
+        result = read_geometry(&reader, err);
+    if (!result)
+        result = read_channel_list(&reader, contents, &channel_count, err);
+    if (!result)
+        result = read_attributes(&reader, &contents->attributes, err);
+    if (!result)
+        result = read_pixels(&reader, contents, channel_count, err);
 out:
     exr_finish(&reader.context);
     input_file_free(&file);

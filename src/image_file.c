@@ -32,8 +32,7 @@ enum result image_format_choose(const char *path, const char *name, enum image_f
             return RESULT_OK;
         return error_set(err, RESULT_USAGE, "unknown image format '%s'; choose --format exr or --format png", name);
     }
-    const char *slash = strrchr(path, '/');
-    const char *dot = strrchr(slash ? slash : path, '.');
+    const char *dot = strrchr(path, '.');
     if (dot && find_format(dot + 1, format))
         return RESULT_OK;
     return error_set(err, RESULT_USAGE,

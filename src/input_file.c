@@ -72,8 +72,9 @@ enum result input_file_read(const char *path, struct input_file *file, struct er
     if (fd < 0)
         return failed(name, "opened", err);
 
-    enum result result = isatty(fd) ? error_set(err, RESULT_USAGE, "%s: is a terminal; name a file or pipe one in", name)
-                                    : read_all(fd, name, file, err);
+    enum result result = isatty(fd)
+                             ? error_set(err, RESULT_USAGE, "%s: is a terminal; name a file or pipe one in", name)
+                             : read_all(fd, name, file, err);
     if (!is_standard_input)
         close(fd);
     if (result)

@@ -11,9 +11,9 @@ struct input_file {
     size_t size; /* bytes */
 };
 
-/* Reads all of `path` ("-": standard input, which must not be a terminal: RESULT_USAGE). Refused are what cannot be read
- * and what is larger than input_memory_limit(). The caller frees *file; on failure it is empty. RESULT_INTERRUPTED if a
- * caught signal came while the input was blocked. */
+/* Reads all of `path` ("-": standard input, which must not be a terminal: RESULT_USAGE). Refused are what cannot be
+ * read and what is larger than input_memory_limit(). The caller frees *file; on failure it is empty.
+ * RESULT_INTERRUPTED if a caught signal came while the input was blocked. */
 MUST_CHECK enum result input_file_read(const char *path, struct input_file *file, struct error *err);
 void input_file_free(struct input_file *file);
 

@@ -49,8 +49,9 @@ static enum result folder_error(const struct output_file *file, int reason, stru
     const char *cure = reason == ENOENT   ? "create the folder first (mkdir -p)"
                        : reason == ENOSPC ? "free some space or write elsewhere"
                                           : "write to a folder in which you may create files";
-    return error_set(err, RESULT_DATA, "%s: cannot create a file in the folder %.*s: %s; %s", output_file_name(file->path),
-                     slash ? length : 1, slash ? file->target : ".", strerror(reason), cure);
+    return error_set(err, RESULT_DATA, "%s: cannot create a file in the folder %.*s: %s; %s",
+                     output_file_name(file->path), slash ? length : 1, slash ? file->target : ".", strerror(reason),
+                     cure);
 }
 
 /* Creates the temporary file: open() and not mkstemp(), so that the umask and the folder's ACLs count. */

@@ -28,8 +28,8 @@ MUST_CHECK enum result output_file_open(struct output_file *file, const char *pa
 /* Writes all `size` bytes. RESULT_INTERRUPTED if a caught signal came while the output was blocked. */
 MUST_CHECK enum result output_file_write(struct output_file *file, const void *data, size_t size, struct error *err);
 
-/* Closes the file and puts it in its place. Whatever the result, the file is not open afterwards, and after a failure no
- * temporary file is left and the target is as it was. */
+/* Closes the file and puts it in its place. Whatever the result, the file is not open afterwards, and after a failure
+ * no temporary file is left and the target is as it was. */
 MUST_CHECK enum result output_file_commit(struct output_file *file, struct error *err);
 
 /* Closes and removes the temporary file; the target is as it was. Does nothing after a commit or a failed open. */

@@ -79,9 +79,11 @@ static enum result check_attributes(const char *path, const struct exr_attribute
     if (!(attributes->view_angle >= 0 && attributes->view_angle <= full_turn))
         return error_set(err, RESULT_DATA, "%s: attribute povgloss:viewAngle is %g, and must be from 0 to 2 pi radians",
                          name, (double)attributes->view_angle);
-    if (!(attributes->working_gamma >= 0 && isfinite(attributes->working_gamma)))
-        return error_set(err, RESULT_DATA, "%s: attribute povgloss:workingGamma is %g, and must be above 0", name,
-                         (double)attributes->working_gamma);
+    float gamma = attributes->working_gamma;
+    if (!(gamma >= 0 && isfinite(gamma)) && gamma != GBUFFER_GAMMA_SRGB)
+        return error_set(err, RESULT_DATA,
+                         "%s: attribute povgloss:workingGamma is %g, and must be an exponent above 0 or %g for sRGB",
+                         name, (double)gamma, (double)GBUFFER_GAMMA_SRGB);
     return RESULT_OK;
 }
 

@@ -8,6 +8,7 @@
 #include "io_support.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 
 enum { TIFF_HEADER = 8, TIFF_TAGS = 10, TIFF_DATA = TIFF_HEADER + 2 + 12 * TIFF_TAGS + 4 + 2 };
 
@@ -465,7 +466,7 @@ static void exr_read__header_of_a_huge_image__refused_without_the_memory(void **
     write_planes(in_scratch("g.exr"), &image, NULL);
     unsigned char *data = read_bytes(in_scratch("g.exr"), &size);
     size_t at = find_bytes(data, size, "dataWindow\0box2i\0\20\0\0\0", 21) + 21;
-    static const int32_t maxima[][2] = {{65534, 65534}, {65535, 15}, {15, 65535}, {30000, 30000}, {2147483647, 15},
+    static const int32_t maxima[][2] = {{65534, 65534}, {65535, 15}, {15, 65535}, {2147483647, 15},
                                         {-2, 15},       {15, -2},    {15, 16},    {15, 31}};
     for (size_t i = 0; i < sizeof maxima / sizeof maxima[0]; i++) {
         put(data + at + 8, (uint32_t)maxima[i][0], 4);
@@ -473,7 +474,26 @@ static void exr_read__header_of_a_huge_image__refused_without_the_memory(void **
         write_bytes(in_scratch("g.exr"), data, size);
         assert_refused("g.exr", "");
     }
+    /* 3.6 GB: told apart from a lack of memory, since none of it is asked for. */
+    put(data + at + 8, 29999, 4);
+    put(data + at + 12, 29999, 4);
+    write_bytes(in_scratch("g.exr"), data, size);
     free(data);
+#if !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+    struct rlimit before, tight;
+    assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
+    tight = before;
+    tight.rlim_cur = 1u << 30;
+    assert_int_equal(setrlimit(RLIMIT_AS, &tight), 0);
+#endif
+    struct exr_contents contents;
+    struct error err;
+    enum result result = exr_read(in_scratch("g.exr"), &contents, &err);
+#if !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+    assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
+#endif
+    assert_int_equal(result, RESULT_DATA);
+    assert_contains(err.text, "damaged or cut short");
     image_free(&image);
 }
 
@@ -483,7 +503,7 @@ static void exr_read__not_an_exr__says_so(void **state)
     write_bytes(in_scratch("empty.exr"), "", 0);
     assert_refused("empty.exr", "is empty");
     write_bytes(in_scratch("text.exr"), "#version 3.7;\n", 14);
-    assert_refused("text.exr", "not an OpenEXR file");
+    assert_refused("text.exr", "text.exr: not an OpenEXR file");
     write_bytes(in_scratch("magic.exr"), "\x76\x2f\x31\x01", 4);
     assert_refused("magic.exr", "header is damaged, cut short");
     assert_refused("absent.exr", "No such file or directory");
@@ -531,6 +551,24 @@ static void exr_read__cut_at_every_length__refused(void **state)
         }
         free(data);
     }
+}
+
+static void exr_read__uncompressed_chunk_of_the_wrong_size__refused(void **state)
+{
+    (void)state;
+    enum { CHUNK_BYTES = 17 * 4 };
+    size_t size;
+    make_small_files();
+    unsigned char *data = read_small_file(0, &size);
+    unsigned char *chunk_size = data + size - CHUNK_BYTES - 4; /* of the last row */
+    assert_int_equal(get(chunk_size, 4), CHUNK_BYTES);
+    static const uint32_t wrong[] = {0, 4, CHUNK_BYTES - 4, CHUNK_BYTES + 4};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        put(chunk_size, wrong[i], 4);
+        write_bytes(in_scratch("bad.exr"), data, size);
+        assert_refused("bad.exr", "damaged or cut short");
+    }
+    free(data);
 }
 
 static void exr_read__every_byte_damaged__result_or_refusal(void **state)
@@ -622,6 +660,7 @@ int main(void)
         cmocka_unit_test(exr_read__header_of_a_huge_image__refused_without_the_memory),
         cmocka_unit_test(exr_read__not_an_exr__says_so),
         cmocka_unit_test(exr_read__cut_at_every_length__refused),
+        cmocka_unit_test(exr_read__uncompressed_chunk_of_the_wrong_size__refused),
         cmocka_unit_test(exr_read__every_byte_damaged__result_or_refusal),
         cmocka_unit_test(exr_read__standard_input__from_a_pipe_and_a_file),
         cmocka_unit_test(exr_write__output_fails__says_why_and_leaves_nothing),

@@ -7,7 +7,8 @@
 static void image_alloc__any_size__zeroed_and_aligned(void **state)
 {
     (void)state;
-    static const int sizes[][3] = {{1, 1, 1}, {1, 9, 3}, {16, 2, 4}, {17, 3, 3}, {67, 5, 2}, {65535, 1, 1}, {1, 65535, 1}};
+    static const int sizes[][3] = {{1, 1, 1},  {1, 9, 3},     {16, 2, 4},   {17, 3, 3},
+                                   {67, 5, 2}, {65535, 1, 1}, {1, 65535, 1}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         struct image image;
         struct error err;
