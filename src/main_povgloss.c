@@ -14,21 +14,26 @@
 #include <unistd.h>
 
 static const char help[] =
-    "Usage: povgloss render SCENE.pov [POV-Ray switches] [options] -o IMAGE\n"
+    "usage: povgloss render SCENE.pov [POV-Ray switches] [options] -o IMAGE\n"
     "       povgloss passes SCENE.pov [POV-Ray switches] [options] -o PASSES.exr\n"
     "\n"
     "Glossy reflections for POV-Ray scenes that say Gloss(300) in a finish (povgloss.inc).\n"
     "render draws the glossy image; passes writes what glossfilter needs to draw it, again and again.\n"
     "POV-Ray's switches (+W640 +H480 +A0.3 +Ldir Declare=x=1 file.ini) go to POV-Ray as they are.\n"
     "\n"
-    "  -o FILE               output; - is standard output; .exr or .png says the format\n"
-    "  --subsample 1|2|4     trace the reflection at every so-many-th pixel only and interpolate (1)\n"
-    "  --jobs N              POV-Ray processes at the same time (0: two more than there are processors)\n"
-    "  --keep DIR            leave the rewritten scenes and POV-Ray's images in DIR\n"
-    "  --povray PROGRAM      the POV-Ray program (povray)\n"
-    "  --help, --version\n"
+    "Scene:\n"
+    "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
+    "                       interpolate; needs +W and +H\n"
+    "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
+    "  --keep DIR           leave the rewritten scenes and POV-Ray's images in DIR\n"
+    "  --povray PROGRAM     the POV-Ray program (default povray)\n";
+
+static const char help_end[] =
+    "  -o, --output FILE    where to write; - is standard output\n"
+    "  -h, --help           this text\n"
+    "  --version            the version\n"
     "\n"
-    "With render, the filter:\n";
+    "Exit status: 0 ok, 2 wrong command line, 3 file, data or memory, 4 POV-Ray failed.\n";
 
 struct command {
     bool passes_only;
@@ -57,6 +62,7 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
         int *number, low, high;
     } options[] = {
         {"-o", &command->output, NULL, 0, 0},
+        {"--output", &command->output, NULL, 0, 0},
         {"--keep", &command->passes.keep, NULL, 0, 0},
         {"--povray", &command->passes.povray, NULL, 0, 0},
         {"--jobs", NULL, &command->passes.jobs, 0, 64},
@@ -87,9 +93,10 @@ static enum result take_argument(int argc, char **argv, int *index, struct comma
 {
     const char *argument = argv[*index];
     bool taken = false;
-    if (!strcmp(argument, "--help") || !strcmp(argument, "--version")) {
-        command->help |= argument[2] == 'h';
-        command->version |= argument[2] == 'v';
+    bool version = !strcmp(argument, "--version");
+    if (version || !strcmp(argument, "--help") || !strcmp(argument, "-h")) {
+        command->help |= !version;
+        command->version |= version;
         ++*index;
         return RESULT_OK;
     }
@@ -246,7 +253,7 @@ int main(int argc, char **argv)
     if (!result)
         result = parse(argc, argv, &command, &switches, &err);
     if (!result && command.help)
-        printf("%s%s", help, cli_filter_help);
+        printf("%s%s%s", help, cli_filter_help, help_end);
     else if (!result && command.version)
         printf("povgloss %s\n", POVGLOSS_VERSION);
     else if (!result)

@@ -60,30 +60,6 @@ enum result text_printf(char **text, struct error *err, const char *format, ...)
     return error_memory(err, (double)strlen(format));
 }
 
-enum result file_read(const char *path, size_t limit, struct buffer *buffer, struct error *err)
-{
-    *buffer = (struct buffer){0};
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return error_set(err, RESULT_DATA, "%s: can't be opened: %s", path, strerror(errno));
-    char block[1 << 16];
-    enum result result = RESULT_OK;
-    size_t count;
-    while (!result && (count = fread(block, 1, sizeof block, file)) > 0) {
-        result = buffer_add(buffer, block, count, err);
-        if (!result && buffer->size > limit)
-            result = error_set(err, RESULT_DATA, "%s: larger than %zu bytes", path, limit);
-    }
-    if (!result && ferror(file))
-        result = error_set(err, RESULT_DATA, "%s: can't be read: %s", path, strerror(errno));
-    if (!result)
-        result = buffer_add(buffer, "", 0, err);
-    fclose(file);
-    if (result)
-        buffer_free(buffer);
-    return result;
-}
-
 enum result file_write(const char *path, const struct buffer *buffer, struct error *err)
 {
     FILE *file = fopen(path, "wb");

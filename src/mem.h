@@ -22,9 +22,6 @@ void buffer_free(struct buffer *buffer);
 __attribute__((format(printf, 3, 4))) MUST_CHECK enum result text_printf(char **text, struct error *err,
                                                                          const char *format, ...);
 
-/* Reads a whole file (at most `limit` bytes, else RESULT_DATA) into a buffer that the caller frees. */
-MUST_CHECK enum result file_read(const char *path, size_t limit, struct buffer *buffer, struct error *err);
-
 /* Writes a whole new file or replaces its content; for files in a folder of our own. */
 MUST_CHECK enum result file_write(const char *path, const struct buffer *buffer, struct error *err);
 

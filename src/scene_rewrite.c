@@ -1,6 +1,7 @@
 #include "scene_rewrite.h"
 
 #include "gbuffer.h"
+#include "input_file.h"
 #include "lobe.h"
 
 #include <assert.h>
@@ -11,7 +12,7 @@
 #include <strings.h>
 #include <unistd.h>
 
-enum { MAX_FILE_SIZE = 1 << 30, MAX_FILES = 1000, MAX_CONDITIONS = 256 };
+enum { MAX_FILES = 1000, MAX_CONDITIONS = 256 };
 
 /* What happens to statements that are allowed at the top level only. */
 enum statements {
@@ -275,7 +276,11 @@ static enum result load_file(struct scene *scene, char *path, const char *const 
     scene->files = files;
     int index = scene->file_count++;
     files[index] = (struct scene_file){.path = path};
-    result = file_read(path, MAX_FILE_SIZE, &files[index].source, err);
+    struct input_file input;
+    result = input_file_read(path, &input, err);
+    if (!result)
+        result = buffer_add(&files[index].source, input.data, input.size, err);
+    input_file_free(&input);
     if (!result)
         result = scene_lex(path, &files[index].source, &files[index].list, err);
     for (int token = 0; !result && token < scene->files[index].list.count; token++) {
