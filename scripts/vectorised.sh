@@ -25,7 +25,7 @@ for isa in sse2 avx2 avx512; do
                         bad = 1
                     }
                 }
-                if (count < 7) { printf "%s: %d paths found, not 7\n", isa, count; bad = 1 }
+                if (count < 8) { printf "%s: %d paths found, not 8\n", isa, count; bad = 1 }
                 exit bad
             }' || status=1
 done

@@ -28,6 +28,7 @@ struct filter {
     struct filter_taps taps;
     float *planes;
     unsigned char *kinds;
+    struct filter_box *boxes;
     float *table;
     double length_scale, radiance_scale; /* powers of two that keep squares and sums within the range of a float */
     double radius_limit_px;
@@ -105,6 +106,16 @@ static void scales_find(struct filter *filter)
     filter->radiance_scale = radiance > 0x1p100 ? ldexp(1, 100 - ilogb(radiance)) : 1;
 }
 
+static const struct filter_box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static void box_add(struct filter_box *box, const float point[3])
+{
+    for (int i = 0; i < 3; i++) {
+        box->low[i] = fminf(box->low[i], point[i]);
+        box->high[i] = fmaxf(box->high[i], point[i]);
+    }
+}
+
 static void taps_fill(void *context, int first, int end)
 {
     struct filter *filter = context;
@@ -137,8 +148,10 @@ static void taps_fill(void *context, int first, int end)
             tap[FILTER_PLANE_GAIN * plane] = gain;
             for (int i = 0; i < 3; i++)
                 tap[(size_t)(FILTER_PLANE_R + i) * plane] = (float)(sample.radiance[i] * filter->radiance_scale);
-            filter->kinds[(size_t)y * (taps->stride / FILTER_LANES) + column / FILTER_LANES] |=
-                b[3] > 0 ? FILTER_KIND_POSITION : FILTER_KIND_DIRECTION;
+            size_t block = (size_t)y * (taps->stride / FILTER_LANES) + column / FILTER_LANES;
+            if (b[3] > 0)
+                box_add(&filter->boxes[block], (const float[3]){(float)b[0], (float)b[1], (float)b[2]});
+            filter->kinds[block] |= b[3] > 0 ? FILTER_KIND_POSITION : FILTER_KIND_DIRECTION;
         }
 }
 
@@ -306,8 +319,11 @@ static bool lane_fill(const struct filter *filter, int x, int y, int l, struct f
     }
     for (int i = 0; i < 4; i++)
         lanes->b[i][l] = *tap_at(filter, FILTER_PLANE_X + (unsigned)i, x, y);
-    lanes->kinds |= lanes->b[3][l] > 0 ? FILTER_KIND_POSITION : FILTER_KIND_DIRECTION;
     lanes->distance[l] = (float)distance;
+    lanes->kinds |= lanes->b[3][l] > 0 ? FILTER_KIND_POSITION : FILTER_KIND_DIRECTION;
+    if (lanes->b[3][l] > 0)
+        lanes->farthest = fmaxf(lanes->farthest, lanes->distance[l]);
+    box_add(&lanes->box, a);
     lanes->slope[l] = (float)slope_of(filter->taps.shape, exponent_at(filter, x, y));
     lanes->narrow = lanes->narrow && lanes->slope[l] >= FILTER_NARROW_SLOPE;
     lanes->limit[l] = (float)(radius * radius);
@@ -320,7 +336,7 @@ static void blur(void *context, int first, int end)
     int width = filter->taps.width;
     for (int y = first; y < end; y++)
         for (int x = 0; x < width; x += FILTER_LANES) {
-            struct filter_lanes lanes = {.x = x, .y = y, .narrow = true};
+            struct filter_lanes lanes = {.x = x, .y = y, .narrow = true, .box = empty_box};
             struct filter_sums sums;
             bool any = false;
             for (int l = 0; l < FILTER_LANES; l++) {
@@ -430,9 +446,12 @@ static enum result filter_alloc(struct filter *filter, struct error *err)
     size_t bytes = plane * FILTER_PLANES * sizeof(float);
     filter->planes = aligned_alloc(64, bytes);
     filter->kinds = calloc(blocks, 1);
+    filter->boxes = malloc(blocks * sizeof *filter->boxes);
     filter->table = malloc(WEIGHTS_TABLE_SIZE * sizeof *filter->table);
-    if (!filter->planes || !filter->kinds || !filter->table)
+    if (!filter->planes || !filter->kinds || !filter->boxes || !filter->table)
         return error_memory(err, (double)bytes);
+    for (size_t i = 0; i < blocks; i++)
+        filter->boxes[i] = empty_box;
     memset(filter->planes, 0, bytes);
     weights_table_build(filter->table);
     filter->taps = (struct filter_taps){
@@ -440,6 +459,7 @@ static enum result filter_alloc(struct filter *filter, struct error *err)
         .height = height,
         .stride = stride,
         .kinds = filter->kinds,
+        .boxes = filter->boxes,
         .square = options->window == FILTER_WINDOW_SQUARE,
         .shape = shape_of(options->weights),
         .table = filter->table,
@@ -488,6 +508,7 @@ out:
         image_free(glossy);
     image_free(&filter.radius);
     free(filter.table);
+    free(filter.boxes);
     free(filter.kinds);
     free(filter.planes);
     return result;

@@ -32,12 +32,18 @@ enum { FILTER_KIND_POSITION = 1, FILTER_KIND_DIRECTION = 2 };
 
 enum filter_shape { FILTER_SHAPE_POWER, FILTER_SHAPE_TABLE, FILTER_SHAPE_GAUSS };
 
+/* Bounds of the usable positions in a block; low above high where there are none. */
+struct filter_box {
+    float low[3], high[3];
+};
+
 /* All pixels as taps: what a neighbour gives. Column x of the picture is column x + FILTER_BORDER of the planes. */
 struct filter_taps {
     int width, height;                   /* of the picture */
     size_t stride;                       /* floats from row to row of a plane: a multiple of 16 */
     const float *planes[FILTER_PLANES];
     const unsigned char *kinds;          /* stride / 16 blocks a row */
+    const struct filter_box *boxes;      /* as many */
     bool square;                         /* window: max(|dx|, |dy|) <= rho, else dx^2 + dy^2 <= rho^2 */
     enum filter_shape shape;
     const float *table;                  /* weights_table_build(), for FILTER_SHAPE_TABLE */
@@ -48,6 +54,8 @@ struct filter_lanes {
     int x, y;
     unsigned char kinds;               /* of the used lanes */
     bool narrow;                       /* the slope of every used lane is at least FILTER_NARROW_SLOPE */
+    struct filter_box box;             /* of a, used lanes */
+    float farthest;                    /* the largest distance of the used lanes with W = 1 */
     float a[3][FILTER_LANES];
     float b[4][FILTER_LANES];          /* as in the planes */
     float direction[3][FILTER_LANES];  /* unit vector from a to b */

@@ -161,17 +161,46 @@ static void filter__homogeneous_scale_of_the_endpoint__does_not_matter(void **st
     gbuffer_free(&gbuffer);
 }
 
-static void filter__lengths_1e_minus_12_to_1e12__give_one_picture(void **state)
+static void filter__lengths_1e_minus_24_to_1e24__give_one_picture(void **state)
 {
     (void)state;
     struct filter_options options = test_options();
-    for (double scale = 1e-12; scale < 2e12; scale *= 1e3) {
+    for (double scale = 1e-24; scale < 2e24; scale *= 1e6) {
         struct scene scene = {.scale = scale, .ball = true};
         struct gbuffer gbuffer;
         scene_draw(&scene, 67, 50, 300, &gbuffer);
         double error = oracle_error(&gbuffer, &options, lobe_weight, 11);
         if (!(error < 1e-5))
             fail_msg("scale %g: error %g", scale, error);
+        gbuffer_free(&gbuffer);
+    }
+}
+
+static void filter__very_far_endpoint__is_a_direction(void **state)
+{
+    (void)state;
+    static const float distances[] = {1e9f, 1e15f, 1e30f};
+    for (int i = 0; i < 3; i++) {
+        struct filter_options options = test_options();
+        struct gbuffer gbuffer;
+        struct image expected, glossy;
+        scene_draw(&plain_scene, 67, 50, 100, &gbuffer);
+        filter_run(&gbuffer, &options, &expected, NULL);
+        for (int y = 0; y < 50; y++)
+            for (int x = 0; x < 67; x++) {
+                float *w = image_row(&gbuffer.endpoint, 3, y) + x;
+                if (*w > 0 || !scene_glossy(&gbuffer, x, y))
+                    continue;
+                *w = 1;
+                for (int channel = 0; channel < 3; channel++)
+                    image_row(&gbuffer.endpoint, channel, y)[x] *= distances[i];
+            }
+        filter_run(&gbuffer, &options, &glossy, NULL);
+        for (int y = 0; y < 50; y++)
+            for (int x = 0; x < 67; x++)
+                assert_near(image_row(&glossy, 0, y)[x], image_row(&expected, 0, y)[x], 2e-6);
+        image_free(&expected);
+        image_free(&glossy);
         gbuffer_free(&gbuffer);
     }
 }
@@ -489,8 +518,8 @@ static void filter__endpoint_on_the_surface__is_the_specular_value(void **state)
 static void filter__one_pixel_and_hdr_values__are_kept(void **state)
 {
     (void)state;
-    static const float values[] = {0, 1e-30f, 65504, 1e30f, FLT_MAX, -FLT_MAX};
-    for (int i = 0; i < 6; i++) {
+    static const float values[] = {0, 1e-30f, 65504, 1e30f, 1e38f, -1e38f, FLT_MAX, -FLT_MAX};
+    for (int i = 0; i < 8; i++) {
         struct filter_options options = test_options();
         struct gbuffer gbuffer;
         struct image glossy;
@@ -682,7 +711,8 @@ int main(void)
         cmocka_unit_test(filter__widths_1_to_67__match_the_oracle),
         cmocka_unit_test(filter__exponent_of_each_pixel__matches_the_oracle),
         cmocka_unit_test(filter__homogeneous_scale_of_the_endpoint__does_not_matter),
-        cmocka_unit_test(filter__lengths_1e_minus_12_to_1e12__give_one_picture),
+        cmocka_unit_test(filter__lengths_1e_minus_24_to_1e24__give_one_picture),
+        cmocka_unit_test(filter__very_far_endpoint__is_a_direction),
         cmocka_unit_test(filter__constant_radiance__stays_constant_with_every_option),
         cmocka_unit_test(filter__weights_of_one__sum_to_the_number_of_taps),
         cmocka_unit_test(filter__mirrored_gbuffer__gives_the_mirrored_picture),
