@@ -133,8 +133,13 @@ static enum result check_command(struct command *command, const struct povray_sw
     if (step > 1 && (switches->width == 0 || switches->height == 0 || switches->width % step || switches->height % step))
         return error_set(err, RESULT_USAGE, "--subsample %d needs +W and +H on the command line, both multiples of %d", step,
                          step);
-    if (command->passes_only && !command->filter.format)
+    if (command->passes_only) {
+        enum image_format format;
+        struct error ignored;
+        if (!image_format_choose(command->output, NULL, &format, &ignored) && format != IMAGE_FORMAT_EXR)
+            return error_set(err, RESULT_USAGE, "%s: passes need an EXR file: end the name in .exr", command->output);
         command->filter.format = "exr";
+    }
     return RESULT_OK;
 }
 
@@ -258,6 +263,8 @@ int main(int argc, char **argv)
         printf("povgloss %s\n", POVGLOSS_VERSION);
     else if (!result)
         result = run(&command, &switches, &err);
+    if (!result && (command.help || command.version) && (fflush(stdout) || ferror(stdout)))
+        result = error_set(&err, RESULT_DATA, "standard output: cannot be written");
     povray_switches_free(&switches);
     if (result == RESULT_INTERRUPTED)
         interrupt_reraise();
