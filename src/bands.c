@@ -1,5 +1,5 @@
-/* Rows of an image shared out among threads: every thread takes the next band from a common counter until none is left or
- * a signal has come.
+/* Rows of an image shared out among threads: every thread takes the next band from a common counter until none is left
+ * or a signal has come.
  */
 #include "bands.h"
 

@@ -69,7 +69,8 @@ enum result cli_integer(const char *option, const char *text, int low, int high,
 }
 
 /* Index of text in a NULL-terminated list of words. */
-static enum result choose(const char *option, const char *text, const char *const *words, int *chosen, struct error *err)
+static enum result choose(const char *option, const char *text, const char *const *words, int *chosen,
+                          struct error *err)
 {
     char allowed[256] = "";
     for (int i = 0; words[i]; i++) {

@@ -21,22 +21,22 @@ struct cli_filter {
 
 struct cli_filter cli_filter_default(void);
 
-/* Looks at argv[*index]. If it is one of the shared options, applies it, moves *index past it and its value, and *taken is
- * true; else *taken is false and nothing changes. A value follows as the next argument or after "=". RESULT_USAGE with
- * the option and what is allowed for a value that is missing or wrong. */
+/* Looks at argv[*index]. If it is one of the shared options, applies it, moves *index past it and its value, and
+ * *taken is true; else *taken is false and nothing changes. A value follows as the next argument or after "=".
+ * RESULT_USAGE with the option and what is allowed for a value that is missing or wrong. */
 MUST_CHECK enum result cli_filter_option(int argc, char **argv, int *index, struct cli_filter *options, bool *taken,
                                          struct error *err);
 
 /* The shared options' lines of --help. */
 extern const char cli_filter_help[];
 
-/* If argv[*index] is the option `name` (such as "--phong") with a value, *value is that and *index moves past both; else *value is
- * NULL. RESULT_USAGE where the value is missing. */
+/* If argv[*index] is the option `name` (such as "--phong") with a value, *value is that and *index moves past both;
+ * else *value is NULL. RESULT_USAGE where the value is missing. */
 MUST_CHECK enum result cli_value(int argc, char **argv, int *index, const char *name, const char **value,
                                  struct error *err);
 
-/* The whole text as a number from low to high (RESULT_USAGE names option, text and range otherwise, and for NaN). "inf" is a
- * number where high is infinite. */
+/* The whole text as a number from low to high (RESULT_USAGE names option, text and range otherwise, and for NaN).
+ * "inf" is a number where high is infinite. */
 MUST_CHECK enum result cli_number(const char *option, const char *text, double low, double high, double *value,
                                   struct error *err);
 

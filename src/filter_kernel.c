@@ -1,10 +1,10 @@
 /* The innermost loops of the filter: sum f L0 and sum f of equation (1) for 16 neighbouring pixels.
  *
- * Lanes are output pixels, taps are in the outer loops, so that the inner loops have a constant length and no branch, and the
- * compiler turns them into vectors. With v the direction from a lane's a to a tap's b', d the lane's own direction,
- * c = v.d and q = v - c d, cos^p(theta) of equation (3) is (1 + tan^2(theta))^(-p/2) with tan^2(theta) = q.q / c^2: never 1
- * minus a rounded cosine. v is taken relative to the lane's b, so that near neighbours differ exactly; a tap much nearer to a
- * than b is, relative to a.
+ * Lanes are output pixels, taps are in the outer loops, so that the inner loops have a constant length and no branch,
+ * and the compiler turns them into vectors. With v the direction from a lane's a to a tap's b', d the lane's own
+ * direction, c = v.d and q = v - c d, cos^p(theta) of equation (3) is (1 + tan^2(theta))^(-p/2) with tan^2(theta) =
+ * q.q / c^2: never 1 minus a rounded cosine. v is taken relative to the lane's b, so that near neighbours differ
+ * exactly; a tap much nearer to a than b is, relative to a.
  */
 #include "filter_kernel.h"
 
@@ -47,8 +47,8 @@ ALWAYS_INLINE float float_of(uint32_t bits)
     return value;
 }
 
-/* log2(1 + t), t from 0 to 2^100, relative error 3e-7. 1 + t = 2^e m with m about 1; z = m - 1 is found without rounding 1 + t,
- * so that it stays accurate for the smallest t. */
+/* log2(1 + t), t from 0 to 2^100, relative error 3e-7. 1 + t = 2^e m with m about 1; z = m - 1 is found without
+ * rounding 1 + t, so that it stays accurate for the smallest t. */
 ALWAYS_INLINE float log2_of_1_plus(float t)
 {
     const uint32_t sqrt_half = 0x3f3504f3;
@@ -83,9 +83,9 @@ ALWAYS_INLINE float power_to_weight(float power)
     return power > LOWEST_POWER ? p : 0.0f;
 }
 
-/* The weights of one tap for all lanes: `tap` is the index of lane 0's tap in the planes, `separation` what the window limits. For
- * the table its position instead, at its end where the weight is 0. `mixed`: each lane looks for itself whether the tap is
- * of its own kind and not near. */
+/* The weights of one tap for all lanes: `tap` is the index of lane 0's tap in the planes, `separation` what the window
+ * limits. For the table its position instead, at its end where the weight is 0. `mixed`: each lane looks for itself
+ * whether the tap is of its own kind and not near. */
 ALWAYS_INLINE void tap_weights(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
                                float separation, enum path path, bool mixed, float *restrict weights)
 {

@@ -49,7 +49,7 @@ struct filter_taps {
     const float *table;                  /* weights_table_build(), for FILTER_SHAPE_TABLE */
 };
 
-/* What is computed: 16 pixels of row y, the first at column x (a multiple of 16). Unused lanes: limit -1, the rest 0. */
+/* What is computed: 16 pixels of row y from column x on (a multiple of 16). Unused lanes: limit -1, the rest 0. */
 struct filter_lanes {
     int x, y;
     unsigned char kinds;               /* of the used lanes */
@@ -60,8 +60,8 @@ struct filter_lanes {
     float b[4][FILTER_LANES];          /* as in the planes */
     float direction[3][FILTER_LANES];  /* unit vector from a to b */
     float distance[FILTER_LANES];      /* |b - a|; 1 for a direction */
-    /* The weight is 2^-(slope log2(1 + t)) for the power, table[slope log2(1 + t)] for the table, 2^-(slope t) for the Gaussian;
-     * t = tan^2(theta). */
+    /* The weight is 2^-(slope log2(1 + t)) for the power, table[slope log2(1 + t)] for the table, 2^-(slope t) for the
+     * Gaussian; t = tan^2(theta). */
     float slope[FILTER_LANES];
     float limit[FILTER_LANES];         /* rho^2, pixels^2 */
 };
@@ -71,11 +71,12 @@ struct filter_sums {
     double value[4][FILTER_LANES];
 };
 
-/* From this slope of the power (p = 240 and more) on, the weights are below 2^-120, that is 0, before tan(theta) reaches 1. */
+/* From this slope of the power (p = 240 and more) on, the weights are below 2^-120, that is 0, before tan(theta)
+ * reaches 1. */
 #define FILTER_NARROW_SLOPE 120.0f
 
-/* Sums over the window of every lane (lanes with a limit below 0: sums of 0). Weights below 2^-120 are 0; so are those of taps at
- * 90 degrees and more from a lane's direction. */
+/* Sums over the window of every lane (lanes with a limit below 0: sums of 0). Weights below 2^-120 are 0; so are those
+ * of taps at 90 degrees and more from a lane's direction. */
 typedef void filter_kernel(const struct filter_taps *taps, const struct filter_lanes *lanes, struct filter_sums *sums);
 
 filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;

@@ -1,4 +1,4 @@
-/* What the tests of the filter share: a synthetic scene in double, the oracle of equation (1), and strict assertions. */
+/* What the tests of the filter share: a synthetic scene, the oracle of equation (1), and strict assertions. */
 #ifndef POVGLOSS_GLOSS_SUPPORT_H
 #define POVGLOSS_GLOSS_SUPPORT_H
 
@@ -33,9 +33,9 @@ UNUSED static void assert_near_at(double a, double b, double tolerance, const ch
             fail_msg("%s", (err).text);                                                                                \
     } while (0)
 
-/* A glossy floor y = 0 (and, optionally, a glossy ball on it) seen by a pinhole camera under a sky, with two spheres and a
- * checkered wall. Lengths times `scale`; `bounded` closes the scene, so that no mirrored ray misses; a view angle other than 0
- * replaces 1.1 radians: a small one looks at the edge of a sphere's reflection. */
+/* A glossy floor y = 0 (and, optionally, a glossy ball on it) seen by a pinhole camera under a sky, with two spheres
+ * and a checkered wall. Lengths times `scale`; `bounded` closes the scene, so that no mirrored ray misses; a view
+ * angle other than 0 replaces 1.1 radians: a small one looks at the edge of a sphere's reflection. */
 struct scene {
     double scale, view_angle;
     bool ball, bounded;
@@ -90,7 +90,8 @@ UNUSED static double scene_hit(const struct scene *scene, const double from[3], 
 
 UNUSED static void scene_colour(int thing, const double point[3], const double direction[3], float colour[3])
 {
-    static const float of_thing[5][3] = {{0.9f, 0.2f, 0.1f}, {0.2f, 0.8f, 0.3f}, {0.5f, 0.5f, 0.6f}, {0.3f, 0.3f, 0.3f}, {1, 1, 1}};
+    static const float of_thing[5][3] = {
+        {0.9f, 0.2f, 0.1f}, {0.2f, 0.8f, 0.3f}, {0.5f, 0.5f, 0.6f}, {0.3f, 0.3f, 0.3f}, {1, 1, 1}};
     bool dark = thing == 4 && ((int)floor(point[0] * 2) + (int)floor(point[1] * 2)) & 1;
     for (int i = 0; i < 3; i++)
         colour[i] = thing < 0 ? (float)(0.3 + 0.2 * i + 0.2 * direction[1]) : dark ? 0.05f : of_thing[thing][i];
@@ -173,8 +174,8 @@ UNUSED static double oracle_cosine(const struct gbuffer *gbuffer, int x, int y, 
 typedef double oracle_weight(double phong, double cosine);
 
 /* Equation (1) at a glossy pixel, all pixels by all pixels; returns the sum of the weights. */
-UNUSED static double oracle_pixel(const struct gbuffer *gbuffer, double radius, bool square, oracle_weight *weight, int x,
-                                  int y, double colour[3])
+UNUSED static double oracle_pixel(const struct gbuffer *gbuffer, double radius, bool square, oracle_weight *weight,
+                                  int x, int y, double colour[3])
 {
     double sum = 0, phong = (double)image_row(&gbuffer->phong, 0, y)[x];
     colour[0] = colour[1] = colour[2] = 0;

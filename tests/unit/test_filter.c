@@ -446,6 +446,7 @@ static void filter__exponent_of_the_options__applies(void **state)
     filter_run(&gbuffer, &options, &expected, NULL);
 
     /* in place of the passes' own */
+    gbuffer_free(&gbuffer);
     scene_draw(&plain_scene, 67, 50, 400, &gbuffer);
     options.phong = 40;
     filter_run(&gbuffer, &options, &glossy, NULL);
