@@ -16,12 +16,13 @@ prove --exec '' --merge --timer --verbose "$@" "${scripts[@]}" >"$log"
 status=$?
 
 # What failed and why, and prove's own line for every test program; not each test that passed.
-grep -vE '^ok [0-9]|^1\.\.[0-9]+$|^ok$|^# ok [0-9]' "$log"
-passed=$(grep -cE '^ok [0-9]' "$log")
+grep -vE '^ok [0-9]+( - [^#]*)?$|^1\.\.[0-9]+$|^ok$|^# ok [0-9]' "$log"
+passed=$(grep -E '^ok [0-9]' "$log" | grep -cv '# SKIP')
+skipped=$(grep -cE '^ok [0-9].*# SKIP' "$log")
 failed=$(grep -cE '^not ok [0-9]' "$log")
 # A program that died or ran fewer tests than it planned has failed as well.
 if [ "$status" -ne 0 ] && [ "$failed" -eq 0 ]; then
     failed=1
 fi
-echo "$passed passed, $failed failed"
+echo "$passed passed, $failed failed$([ "$skipped" -eq 0 ] || echo ", $skipped skipped")"
 [ "$status" -eq 0 ] && [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]

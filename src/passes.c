@@ -256,6 +256,9 @@ static enum result wrapper_text(const struct run *run, enum pass_id id, struct b
     if (!result)
         result = buffer_add_text(
             text, "#macro povgloss_nothing() sphere { 0, 1e-6 no_image no_reflection no_shadow no_radiosity } #end\n", err);
+    /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
+    if (!result)
+        result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass->full_size ? "" : "aperture 0");
     if (!result)
         result = scene_save_names(&run->scene, text, err);
     if (!result)

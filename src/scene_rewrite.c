@@ -108,7 +108,7 @@ static const char *base_name(const char *path)
 /* The index of the word at `token` in a list of names, or -1. */
 static int find_name(const struct buffer *names, const struct scene_file *file, int token)
 {
-    if (file->list.tokens[token].kind != TOKEN_WORD)
+    if (token < 0 || file->list.tokens[token].kind != TOKEN_WORD)
         return -1;
     const char *word = file->source.data + file->list.tokens[token].word;
     size_t length = file->list.tokens[token].word_length;
@@ -158,19 +158,24 @@ static bool is_plain_mirror(const struct scene_file *file, int token)
     return !zero;
 }
 
+/* The first assumed_gamma of a scene is the one that POV-Ray takes. */
 static enum result note_gamma(struct scene *scene, const struct scene_file *file, int token, struct error *err)
 {
     const struct token *value = &file->list.tokens[token + 1];
+    double gamma;
     if (is_word(file, token + 1, "srgb")) {
-        scene->working_gamma = GBUFFER_GAMMA_SRGB;
-    } else if (value->kind == TOKEN_NUMBER && (value[1].kind == TOKEN_WORD || is_mark(file, token + 2, "}"))) {
-        scene->working_gamma = number_value(file, token + 1);
+        gamma = GBUFFER_GAMMA_SRGB;
+    } else if (value->kind == TOKEN_NUMBER && (value[1].kind == TOKEN_WORD || value[1].kind == TOKEN_DIRECTIVE ||
+                                               is_mark(file, token + 2, "}"))) {
+        gamma = number_value(file, token + 1);
     } else {
         return error_set(err, RESULT_DATA,
                          "%s:%d: assumed_gamma must be a plain number or srgb, so that the passes can be recombined in "
                          "the same space: write the number",
                          file->path, file->list.tokens[token].line);
     }
+    if (scene->working_gamma == 0)
+        scene->working_gamma = gamma;
     return RESULT_OK;
 }
 
@@ -247,6 +252,8 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
     }
     if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
         scene->plain_mirrors = true;
+    if (is_word(file, token, "aperture"))
+        scene->focal_blur = true;
     if (is_word(file, token, "assumed_gamma"))
         return note_gamma(scene, file, token, err);
     bool own = !strcmp(base_name(file->path), "povgloss.inc");
@@ -341,6 +348,8 @@ struct writer {
 
 static enum result copy_to(struct writer *writer, size_t end, struct error *err)
 {
+    if (end <= writer->at)
+        return RESULT_OK;
     enum result result = buffer_add(&writer->out, writer->file->source.data + writer->at, end - writer->at, err);
     writer->at = end;
     return result;
@@ -350,9 +359,11 @@ static enum result copy_to(struct writer *writer, size_t end, struct error *err)
 static enum result replace_to(struct writer *writer, size_t end, const char *text, struct error *err)
 {
     enum result result = buffer_add_text(&writer->out, text, err);
-    for (; writer->at < end; writer->at++)
-        if (!result && writer->file->source.data[writer->at] == '\n')
-            result = buffer_add(&writer->out, "\n", 1, err);
+    for (; writer->at < end; writer->at++) {
+        const char *c = writer->file->source.data + writer->at;
+        if (!result && (*c == '\n' || *c == '\r'))
+            result = buffer_add(&writer->out, c, 1, err);
+    }
     return result;
 }
 
@@ -408,6 +419,8 @@ static enum result write_statement(struct writer *writer, int token, int last, s
         result = insert_before(writer, token, "} ", err);
     if (!result && settings && writer->rules->technical)
         result = write_technical_settings(writer, token + 2, last, err);
+    if (!result && camera && writer->scene->focal_blur)
+        result = insert_before(writer, last, " povgloss_camera() ", err);
     if (!result && statements != STATEMENTS_STAY)
         return insert_after(writer, last, " union { povgloss_nothing()", err);
     return result ? result : copy_to(writer, writer->file->list.tokens[last].end, err);
@@ -635,6 +648,9 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
         const struct scene_file *file = &scene->files[i];
         struct writer writer = {
             .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy, .value_end = -1};
+        /* POV-Ray takes a byte order mark in a scene but not in an include file, which every copy is. */
+        if (file->source.size >= 3 && !memcmp(file->source.data, "\xEF\xBB\xBF", 3))
+            writer.at = 3;
         char *name = NULL, *path = NULL;
         result = write_tokens(&writer, 0, file->list.count, err);
         if (!result)

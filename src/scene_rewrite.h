@@ -2,7 +2,8 @@
  *
  * A copy is the user's text with some blocks replaced, line by line where it was, so that a message of POV-Ray about a
  * copy names the line of the user's own file. What replaces them refers to names that the pass's wrapper declares
- * (passes.c): the macros povgloss_begin and povgloss_end around the items of every finish, and povgloss_pigment.
+ * (passes.c): the macros povgloss_begin and povgloss_end around the items of every finish, povgloss_pigment, povgloss_nothing
+ * (an object, for unions that would be empty) and, where a camera has an aperture, povgloss_camera at its end.
  */
 #ifndef POVGLOSS_SCENE_REWRITE_H
 #define POVGLOSS_SCENE_REWRITE_H
@@ -32,6 +33,7 @@ struct scene {
     bool plain_mirrors;    /* some finish may reflect without being glossy */
     double version;        /* of a #version that opens the scene; 0: none */
     double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
+    bool focal_blur;        /* some camera has an aperture */
     const char *atmosphere; /* "fog", "rainbow" or "media" where the scene has one at top level, else NULL */
 };
 
