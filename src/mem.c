@@ -65,7 +65,7 @@ enum result file_write(const char *path, const struct buffer *buffer, struct err
     FILE *file = fopen(path, "wb");
     if (!file)
         return error_set(err, RESULT_DATA, "%s: can't be written: %s", path, strerror(errno));
-    int failed = fwrite(buffer->data, 1, buffer->size, file) != buffer->size;
+    int failed = buffer->size > 0 && fwrite(buffer->data, 1, buffer->size, file) != buffer->size;
     if (fclose(file) || failed)
         return error_set(err, RESULT_DATA, "%s: can't be written: %s", path, strerror(errno));
     return RESULT_OK;

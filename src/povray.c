@@ -19,7 +19,8 @@ static void read_progress(struct povray_job *job)
     for (const char *at = text + tail; (at = strstr(at, "Rendered ")); at++)
         last = at;
     double pixels, all;
-    if (last && sscanf(last, "Rendered %lf of %lf pixels", &pixels, &all) == 2 && all > 0)
+    int whole = 0;
+    if (last && sscanf(last, "Rendered %lf of %lf pixels%n", &pixels, &all, &whole) == 2 && whole > 0 && all > 0)
         job->done = pixels / all;
 }
 
@@ -127,7 +128,7 @@ enum result povray_error_text(const struct buffer *messages, struct buffer *text
         if (!copy)
             return error_memory(err, (double)length);
         bool further = wanted && copy[0] == ' ';
-        wanted = further || strstr(copy, "rror") || !strncmp(copy, "Problem with option", 19) ||
+        wanted = further || strstr(copy, "Error") || strstr(copy, "error") || !strncmp(copy, "Problem with option", 19) ||
                  !strncmp(copy, "Failed to parse", 15);
         bool noise = !strncmp(copy, "Fatal error in parser: Cannot parse input", 41);
         if (wanted && !noise && length)

@@ -1,0 +1,287 @@
+/* Coded positions: the header's formula in double, through 16-bit digits and back, and a sphere drawn by POV-Ray. */
+#include "position_code.h"
+
+#include "io_support.h"
+#include "png_io.h"
+
+static double length_of(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+static double sixteen_bits(double code)
+{
+    assert_true(code > 0 && code < 1);
+    return (float)(round(code * 65535) / 65535);
+}
+
+/* The header's formula; both digits of one point (or direction) in 16 bits. */
+static void encode(const double p[3], bool direction, struct image *high, struct image *low, int x, int y)
+{
+    double length = length_of(p);
+    double radius = direction ? 1 : 1 / 20.0 + 9 / 10.0 * (log10(length) + 12) / 24;
+    for (int axis = 0; axis < 3; axis++) {
+        double v = 0.5 + 0.499 * p[axis] / length * radius, steps = 16384 * v;
+        image_row(high, axis, y)[x] = (float)sixteen_bits(v);
+        image_row(low, axis, y)[x] = (float)sixteen_bits(0.001 + 0.998 * (steps - floor(steps)));
+    }
+}
+
+static double random_number(void)
+{
+    static uint64_t seed = 88172645463325252u;
+    seed ^= seed << 13;
+    seed ^= seed >> 7;
+    seed ^= seed << 17;
+    return (double)(seed >> 11) * 0x1p-53;
+}
+
+/* A random direction; every tenth lies on an axis or in a plane of two. */
+static void random_direction(int n, double d[3])
+{
+    double length;
+    do {
+        for (int axis = 0; axis < 3; axis++)
+            d[axis] = n % 10 == axis ? 0 : 2 * random_number() - 1;
+        if (n % 30 == 0)
+            d[1] = 0;
+        length = length_of(d);
+    } while (length > 1 || length < 0.01);
+    for (int axis = 0; axis < 3; axis++)
+        d[axis] /= length;
+}
+
+enum { SIDE = 300 };
+
+static void make_images(int width, int height, struct image *high, struct image *low)
+{
+    struct error err;
+    assert_ok(image_alloc(high, width, height, 3, &err), err);
+    assert_ok(image_alloc(low, width, height, 3, &err), err);
+}
+
+static void free_images(struct image *high, struct image *low, struct image *decoded)
+{
+    image_free(high);
+    image_free(low);
+    image_free(decoded);
+}
+
+static void decode__positions_of_any_size__relative_error_1e7(void **state)
+{
+    (void)state;
+    struct image high, low, decoded;
+    struct error err;
+    static double p[SIDE * SIDE][3];
+    make_images(SIDE, SIDE, &high, &low);
+    for (int n = 0; n < SIDE * SIDE; n++) {
+        double length = pow(10, -10 + 20 * random_number());
+        random_direction(n, p[n]);
+        for (int axis = 0; axis < 3; axis++)
+            p[n][axis] *= length;
+        encode(p[n], false, &high, &low, n % SIDE, n / SIDE);
+    }
+    assert_ok(position_code_decode(&high, &low, &decoded, &err), err);
+    for (int n = 0; n < SIDE * SIDE; n++) {
+        double q[3], off[3];
+        for (int axis = 0; axis < 3; axis++) {
+            q[axis] = image_row(&decoded, axis, n / SIDE)[n % SIDE];
+            off[axis] = q[axis] - p[n][axis];
+        }
+        assert_true(image_row(&decoded, 3, n / SIDE)[n % SIDE] == 1);
+        /* 1e-7 by the digits, and half a unit in the last place of a float. */
+        assert_near(length_of(q) / length_of(p[n]), 1, 1e-7 + 0x1p-24);
+        assert_near(length_of(off) / length_of(p[n]), 0, 1e-7 + 0x1p-24);
+    }
+    free_images(&high, &low, &decoded);
+}
+
+/* Where the low digits go from nearly 1 to 0 the high ones may be rounded to either side. */
+static void decode__carry_between_the_digits__no_jump(void **state)
+{
+    (void)state;
+    struct image high, low, decoded;
+    struct error err;
+    enum { COUNT = 60000 };
+    make_images(COUNT, 1, &high, &low);
+    for (int n = 0; n < COUNT; n++) {
+        double p[3] = {pow(10, 1e-7 * n), 1e-3, -2};
+        encode(p, false, &high, &low, n, 0);
+    }
+    assert_ok(position_code_decode(&high, &low, &decoded, &err), err);
+    for (int n = 0; n < COUNT; n++)
+        assert_near(image_row(&decoded, 0, 0)[n] / pow(10, 1e-7 * n), 1, 4e-7);
+    free_images(&high, &low, &decoded);
+}
+
+static void decode__directions__within_1e6_and_w_0(void **state)
+{
+    (void)state;
+    struct image high, low, decoded, coarse;
+    struct error err;
+    static double d[SIDE * SIDE][3];
+    make_images(SIDE, SIDE, &high, &low);
+    for (int n = 0; n < SIDE * SIDE; n++) {
+        random_direction(n, d[n]);
+        encode(d[n], true, &high, &low, n % SIDE, n / SIDE);
+    }
+    assert_ok(position_code_decode(&high, &low, &decoded, &err), err);
+    assert_ok(position_code_decode(&high, NULL, &coarse, &err), err);
+    for (int n = 0; n < SIDE * SIDE; n++) {
+        double q[3];
+        for (int axis = 0; axis < 3; axis++) {
+            q[axis] = image_row(&decoded, axis, n / SIDE)[n % SIDE];
+            assert_near(q[axis], d[n][axis], 1e-6);
+            /* Half a step of 16 bits: 0.5/65535/0.499, on each of the axes. */
+            assert_near(image_row(&coarse, axis, n / SIDE)[n % SIDE], d[n][axis], 2.7e-5);
+        }
+        assert_near(length_of(q), 1, 1e-6);
+        assert_true(image_row(&decoded, 3, n / SIDE)[n % SIDE] == 0);
+        assert_true(image_row(&coarse, 3, n / SIDE)[n % SIDE] == 0);
+    }
+    free_images(&high, &low, &decoded);
+    image_free(&coarse);
+}
+
+static void decode__black__all_zero(void **state)
+{
+    (void)state;
+    struct image high, low, decoded;
+    struct error err;
+    make_images(2, 1, &high, &low);
+    encode((double[3]){1, 2, 3}, false, &high, &low, 1, 0);
+    for (int axis = 0; axis < 3; axis++)
+        image_row(&low, axis, 0)[0] = 0.5f; /* black decides, whatever the low digits hold */
+    assert_ok(position_code_decode(&high, &low, &decoded, &err), err);
+    for (int channel = 0; channel < 4; channel++)
+        assert_true(image_row(&decoded, channel, 0)[0] == 0);
+    assert_near(image_row(&decoded, 2, 0)[1], 3, 1e-6);
+    free_images(&high, &low, &decoded);
+}
+
+static void decode__middle_grey__no_nan(void **state)
+{
+    (void)state;
+    struct image high, low, decoded;
+    struct error err;
+    make_images(1, 1, &high, &low);
+    for (int axis = 0; axis < 3; axis++)
+        image_row(&high, axis, 0)[0] = 0.5f;
+    assert_ok(position_code_decode(&high, NULL, &decoded, &err), err);
+    for (int axis = 0; axis < 3; axis++)
+        assert_near(image_row(&decoded, axis, 0)[0], 0, 1e-12);
+    free_images(&high, &low, &decoded);
+}
+
+static void decode__two_sizes__refused_with_both(void **state)
+{
+    (void)state;
+    struct image high, low, other, decoded = {0};
+    struct error err;
+    make_images(4, 3, &high, &low);
+    assert_ok(image_alloc(&other, 4, 2, 3, &err), err);
+    assert_int_equal(position_code_decode(&high, &other, &decoded, &err), RESULT_DATA);
+    assert_contains(err.text, "4x3");
+    assert_contains(err.text, "4x2");
+    assert_null(decoded.pixels);
+    free_images(&high, &low, &other);
+}
+
+/* ---- drawn by POV-Ray ---- */
+
+struct ball {
+    double centre[3], radius, eye[3];
+};
+
+static const struct ball balls[] = {
+    {{0.4, -0.3, 0.2}, 1.5, {0.4, -0.3, -4.8}},
+    {{-7e4, 5e4, 2e4}, 1.5e4, {-7e4, 5e4, -3e4}},
+};
+enum { WIDTH = 24, HEIGHT = 18 };
+
+static void write_scene(const struct ball *ball, enum position_digits digits, const char *name)
+{
+    struct buffer text = {0};
+    struct error err;
+    char path[64];
+    assert_ok(buffer_printf(&text, &err,
+                            "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n"
+                            "camera { location <%.17g, %.17g, %.17g> direction z up y right x*4/3 }\n"
+                            "sphere { <%.17g, %.17g, %.17g>, %.17g texture { ",
+                            ball->eye[0], ball->eye[1], ball->eye[2], ball->centre[0], ball->centre[1], ball->centre[2],
+                            ball->radius),
+              err);
+    assert_ok(position_code_pigment(&text, false, digits, &err), err);
+    assert_ok(buffer_add_text(&text, "finish { emission 1 ambient 0 diffuse 0 } } }\nsky_sphere { ", &err), err);
+    assert_ok(position_code_pigment(&text, true, digits, &err), err);
+    assert_ok(buffer_add_text(&text, "}\n", &err), err);
+    snprintf(path, sizeof path, "%s.pov", name);
+    assert_ok(file_write(in_scratch(path), &text, &err), err);
+    buffer_free(&text);
+}
+
+/* Where the ray through a pixel's centre meets the ball, or its direction (false). */
+static bool hit(const struct ball *ball, int x, int y, double p[3])
+{
+    double d[3] = {((x + 0.5) / WIDTH - 0.5) * 4 / 3, 0.5 - (y + 0.5) / HEIGHT, 1}, length = length_of(d);
+    double b = 0, c = -ball->radius * ball->radius;
+    for (int axis = 0; axis < 3; axis++) {
+        double offset = ball->eye[axis] - ball->centre[axis];
+        d[axis] /= length;
+        b += offset * d[axis];
+        c += offset * offset;
+    }
+    bool found = b * b > c;
+    for (int axis = 0; axis < 3; axis++)
+        p[axis] = found ? ball->eye[axis] + (-b - sqrt(b * b - c)) * d[axis] : d[axis];
+    return found;
+}
+
+static void pigment__sphere_and_sky_by_povray__positions_and_directions(void **state)
+{
+    (void)state;
+    char command[1024] = "", name[32];
+    for (int i = 0; i < 4; i++) {
+        snprintf(name, sizeof name, "scene%d", i);
+        write_scene(&balls[i / 2], i % 2 ? POSITION_DIGITS_LOW : POSITION_DIGITS_HIGH, name);
+        snprintf(command + strlen(command), sizeof command - strlen(command),
+                 "povray +Iscene%d.pov +Oscene%d.png +W%d +H%d +FN16 File_Gamma=1.0 -A -D -GA </dev/null & ", i, i, WIDTH,
+                 HEIGHT);
+    }
+    run("%s wait", command);
+    for (int i = 0; i < 2; i++) {
+        struct image high, low, decoded;
+        struct error err;
+        snprintf(name, sizeof name, "scene%d.png", 2 * i);
+        assert_ok(png_read(in_scratch(name), &high, &err), err);
+        snprintf(name, sizeof name, "scene%d.png", 2 * i + 1);
+        assert_ok(png_read(in_scratch(name), &low, &err), err);
+        assert_ok(position_code_decode(&high, &low, &decoded, &err), err);
+        int hits = 0;
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 0; x < WIDTH; x++) {
+                double p[3];
+                bool position = hit(&balls[i], x, y, p);
+                hits += position;
+                assert_int_equal(image_row(&decoded, 3, y)[x], position);
+                for (int axis = 0; axis < 3; axis++)
+                    assert_near(image_row(&decoded, axis, y)[x], p[axis], 2e-7 * length_of(p));
+            }
+        assert_true(hits > 40 && hits < WIDTH * HEIGHT - 40);
+        free_images(&high, &low, &decoded);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(decode__positions_of_any_size__relative_error_1e7),
+        cmocka_unit_test(decode__carry_between_the_digits__no_jump),
+        cmocka_unit_test(decode__directions__within_1e6_and_w_0),
+        cmocka_unit_test(decode__black__all_zero),
+        cmocka_unit_test(decode__middle_grey__no_nan),
+        cmocka_unit_test(decode__two_sizes__refused_with_both),
+        cmocka_unit_test(pigment__sphere_and_sky_by_povray__positions_and_directions),
+    };
+    return cmocka_run_group_tests_name("position_code", tests, scratch_setup, scratch_teardown);
+}
