@@ -5,12 +5,14 @@
 #include "cli.h"
 #include "compose.h"
 #include "interrupt.h"
+#include "output_file.h"
 #include "passes.h"
 #include "passes_file.h"
 #include "povray_switches.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const char help[] =
@@ -211,6 +213,19 @@ static enum result draw(const struct command *command, const struct gbuffer *gbu
     return result;
 }
 
+/* A file that can't be made is told before the passes are rendered. Devices and pipes are opened only when they are written. */
+static enum result check_place(const char *path, struct error *err)
+{
+    struct output_file file;
+    struct stat there;
+    if (!strcmp(path, "-") || (!stat(path, &there) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode)))
+        return RESULT_OK;
+    enum result result = output_file_open(&file, path, err);
+    if (!result)
+        output_file_abort(&file);
+    return result;
+}
+
 static enum result run(struct command *command, const struct povray_switches *switches, struct error *err)
 {
     struct progress progress = {.terminal = isatty(STDERR_FILENO), .shown = -1};
@@ -219,6 +234,8 @@ static enum result run(struct command *command, const struct povray_switches *sw
 
     /* 1. refuse what can't be written, before the work */
     enum result result = cli_check_output(command->output, &command->filter, err);
+    if (!result)
+        result = check_place(command->output, err);
     if (result)
         return result;
 

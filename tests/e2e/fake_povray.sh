@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# A povray that fails in ways the real one rarely does: a message that says which pass, the right exit status, nothing left.
+. tests/e2e/lib.sh
+
+cd "$scratch" || exit 1
+mkdir fake output
+cat > scene.pov << 'POV'
+#include "povgloss.inc"
+plane { y, 0 finish { reflection 0.5 Gloss(50) } }
+POV
+oiiotool --create 8x6 3 -d half -o good.exr --create 8x6 3 -d uint16 -o good.png
+oiiotool --create 9x6 3 -d half -o wrong.exr --create 9x6 3 -d uint16 -o wrong.png
+head -c 60 good.png > cut.png
+head -c 200 good.exr > cut.exr
+printf 'not an image\n' > text.png
+
+# draw: with a povray whose commands are on standard input; $folder is its pass, $image its image's name.
+draw() {
+    {
+        printf '#!/bin/sh\nhere=%q\n' "$scratch"
+        cat << 'SH'
+folder=$(basename "$PWD") image=image.exr
+for argument; do case $argument in *image.png) image=image.png ;; esac; done
+good() { cp "$here/good.${image#image.}" "$image"; }
+SH
+        cat
+    } > fake/povray
+    chmod +x fake/povray
+    printf 'an older picture\n' > output/picture.png
+    run env "PATH=$scratch/fake:$PATH" timeout 60 "$bin/povgloss" render scene.pov "+L$root/povscenes" --quiet \
+        -o output/picture.png
+}
+
+# shellcheck disable=SC2015 # neither test has a side effect
+fails() {
+    draw
+    expect_status "$1" && expect_message "$2" && expect_nothing_left || return 1
+    grep -q '^povgloss: ' "$scratch/err" || { show_run; return 1; }
+    [ "$(ls -A output)" = picture.png ] && [ "$(cat output/picture.png)" = 'an older picture' ] ||
+        fail "written: $(ls -A output)"
+}
+
+works() {
+    draw
+    expect_status 0 && expect_nothing_left && oiiotool output/picture.png -o copy.png
+}
+check "images of the right kind: the fake is good enough" works <<< 'good'
+check "exit status 1 with a message" fails 4 "Parse Error: Hello" << 'SH'
+echo "File 'pass.pov' line 3: Parse Error: Hello" >&2
+exit 1
+SH
+check "exit status 1 without a word" fails 4 "exit status 1" <<< 'exit 1'
+check "exit status 134, as on a full disk" fails 4 "exit status 134" <<< 'good; kill -ABRT $$'
+check "one pass of several fails" fails 4 "exit status 7 in the endpoint pass" << 'SH'
+good
+[ "$folder" != endpoint ] || exit 7
+SH
+check "a pass fails while others run on" fails 4 "exit status 7 in the position pass" << 'SH'
+[ "$folder" != position ] || exit 7
+exec sleep 300
+SH
+check "nothing written, exit status 0" fails 3 "image.exr: cannot be opened" <<< 'exit 0'
+check "one image isn't written" fails 3 "reflectance/image.exr: cannot be opened" << 'SH'
+[ "$folder" = reflectance ] || good
+SH
+check "a PNG that ends early" fails 3 "position/image.png: " << 'SH'
+good
+[ "$folder" != position ] || cp "$here/cut.png" image.png
+SH
+check "an EXR that ends early" fails 3 "specular/image.exr: " << 'SH'
+good
+[ "$folder" != specular ] || cp "$here/cut.exr" image.exr
+SH
+check "a text in place of a PNG" fails 3 "direction/image.png: not a PNG" << 'SH'
+good
+[ "$folder" != direction ] || cp "$here/text.png" image.png
+SH
+for pass in base specular reflectance position position-low endpoint endpoint-low; do
+    check "an image of another size in the $pass pass" fails 3 "9" << SH
+good
+[ "\$folder" != $pass ] || cp "\$here/wrong.\${image#image.}" \$image
+SH
+done
+check "megabytes of messages" fails 4 "exit status 3" << 'SH'
+head -c 30000000 /dev/zero | tr '\0' x >&2
+exit 3
+SH
+check "an error message longer than a line should be" fails 4 "Parse Error" << 'SH'
+{ echo "File 'pass.pov' line 3: Parse Error:"; head -c 100000 /dev/zero | tr '\0' x; echo; } >&2
+exit 1
+SH
+check "messages with bytes of no text" fails 4 "exit status 1" << 'SH'
+head -c 10000 /dev/urandom >&2
+printf '\0\0Parse Error: \377\376\0\n' >&2
+exit 1
+SH
+check "standard error closed early, then work" fails 3 "image.exr: cannot be opened" << 'SH'
+exec 2>&-
+sleep 0.3
+SH
+end_of_tests
