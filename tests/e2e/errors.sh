@@ -63,6 +63,19 @@ check "a parse error after blocks of many lines" render_fails 4 "File 'scenes/lo
     cat head.txt
     printf 'plane { y, 0\n  texture {\n    pigment {\n      rgb 0.4\n    }\n    finish {\n      F\n    }\n  }\n}\n  box { oops }\n'
 )
+# Each pass rewrites the scene in its own way: here only one of them gets as far as the error.
+mkdir one-pass
+cat > one-pass/povray << SH
+#!/bin/sh
+[ "\$(basename "\$PWD")" = "\$PASS" ] || exec sleep 60
+exec $(command -v povray) "\$@"
+SH
+chmod +x one-pass/povray
+for pass in base specular reflectance position; do
+    check "the line of a parse error in the $pass pass" fails 4 "File 'scenes/long.pov' line 17: Parse Error" \
+        env "PASS=$pass" "${povgloss[@]}" render scenes/long.pov "$library" "${size[@]}" --quiet --jobs 9 \
+        --povray "$scratch/one-pass/povray" -o output/picture.exr
+done
 cat > scenes/parts/wrong.inc << 'POV'
 // A part with an error.
 #declare Part = sphere {
