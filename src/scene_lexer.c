@@ -28,8 +28,8 @@ static bool starts(const struct lexer *lexer, const char *two)
 
 static void step(struct lexer *lexer)
 {
-    if (lexer->text[lexer->at++] == '\n')
-        lexer->line++;
+    char c = lexer->text[lexer->at++];
+    lexer->line += c == '\n' || (c == '\r' && !(lexer->at < lexer->size && lexer->text[lexer->at] == '\n'));
 }
 
 static enum result skip_block_comment(struct lexer *lexer, struct error *err)
@@ -51,7 +51,7 @@ static enum result skip_space(struct lexer *lexer, struct error *err)
 {
     while (lexer->at < lexer->size) {
         if (starts(lexer, "//")) {
-            while (lexer->at < lexer->size && lexer->text[lexer->at] != '\n')
+            while (lexer->at < lexer->size && lexer->text[lexer->at] != '\n' && lexer->text[lexer->at] != '\r')
                 lexer->at++;
         } else if (starts(lexer, "/*")) {
             enum result result = skip_block_comment(lexer, err);
@@ -176,6 +176,12 @@ static void match_brackets(const char *text, struct token_list *list)
         int outer = list->tokens[open].match;
         list->tokens[open].match = -1;
         open = outer;
+    }
+    /* What isn't closed isn't around anything. */
+    for (int i = 0; i < list->count; i++) {
+        int parent = list->tokens[i].parent;
+        if (parent >= 0 && list->tokens[parent].match < 0)
+            list->tokens[i].parent = list->tokens[parent].parent;
     }
 }
 

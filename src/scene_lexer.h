@@ -25,7 +25,7 @@ struct token {
     size_t word, word_length; /* directives and words: the name itself */
     int line;                 /* from 1 */
     int match;                /* of { } ( ): the token that closes or opens it; -1: none */
-    int parent;               /* the innermost { around the token; -1: none */
+    int parent;               /* the innermost paired { around the token; -1: none */
 };
 
 struct token_list {

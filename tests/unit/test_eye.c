@@ -1,4 +1,4 @@
-/* The eye and the view angle of synthetic cameras, whose directions come in 16 bits as the direction pass gives them. */
+/* The eye and the view angle of synthetic cameras, whose directions come in 16 bits as the direction pass has them. */
 #include "eye.h"
 
 #include "gloss_support.h"

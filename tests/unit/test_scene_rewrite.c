@@ -1,0 +1,1015 @@
+/* The copies of small scenes, as text; what is learnt of a scene; lines, includes and hostile input.
+ *
+ * Runs of spaces count as one in the comparisons.
+ */
+#include "scene_rewrite.h"
+
+#include "gbuffer.h"
+#include "io_support.h"
+
+/* Loads the scene `name` of the scratch folder, with includes from there. */
+static enum result load(struct scene *scene, const char *name, struct error *err)
+{
+    const char *const directories[] = {scratch};
+    return scene_load(scene, in_scratch(name), directories, 1, err);
+}
+
+static void write_text(const char *name, const char *text)
+{
+    write_bytes(in_scratch(name), text, strlen(text));
+}
+
+static void load_text(struct scene *scene, const char *text)
+{
+    struct error err;
+    write_text("scene.pov", text);
+    assert_ok(load(scene, "scene.pov", &err), err);
+}
+
+/* The text of a file of a copy; the caller frees it. */
+static char *copy_text(const struct scene *scene, enum scene_copy copy, int file)
+{
+    struct error err;
+    char *name = NULL;
+    size_t size;
+    assert_ok(scene_write_copy(scene, copy, scratch, &err), err);
+    assert_ok(scene_copy_name(scene, copy, file, &name, &err), err);
+    char *text = (char *)read_bytes(in_scratch(name), &size);
+    text[size] = 0;
+    assert_int_equal(strlen(text), size);
+    free(name);
+    return text;
+}
+
+static void squeeze(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from; from++)
+        if (*from != ' ' || from[1] != ' ')
+            *to++ = *from;
+    *to = 0;
+}
+
+struct rewriting {
+    enum scene_copy copy;
+    const char *source, *expected;
+};
+
+/* NULL: the copy is the source. */
+static void assert_rewritings(const struct rewriting *cases, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        struct scene scene;
+        load_text(&scene, cases[i].source);
+        char *text = copy_text(&scene, cases[i].copy, 0);
+        char *expected = strdup(cases[i].expected ? cases[i].expected : cases[i].source);
+        squeeze(text);
+        squeeze(expected);
+        if (strcmp(text, expected))
+            fail_msg("copy %d of\n%s\nis\n%s\ninstead of\n%s", (int)cases[i].copy, cases[i].source, text, expected);
+        free(text);
+        free(expected);
+        scene_free(&scene);
+    }
+}
+
+#define ASSERT_REWRITINGS(cases) assert_rewritings(cases, sizeof(cases) / sizeof *(cases))
+
+#define PLAIN SCENE_COPY_PLAIN
+#define BASE SCENE_COPY_BASE
+#define BASE2 SCENE_COPY_BASE_SECOND
+#define MIRROR SCENE_COPY_MIRROR
+#define MIRROR2 SCENE_COPY_MIRROR_SECOND
+#define REFLECTANCE SCENE_COPY_REFLECTANCE
+#define CODED SCENE_COPY_CODED
+
+#define OPEN " union { povgloss_nothing()"
+#define TEXTURE "texture { #declare povgloss_texture = -1; #declare povgloss_last = povgloss_texture; "
+
+static void copy__statements_of_the_top_level__union_broken_dropped_or_kept(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {PLAIN, "camera { angle 3 }\nsphere { 0, 1 }", "} camera { angle 3 }" OPEN "\nsphere { 0, 1 }"},
+        {PLAIN, "background { rgb 1 } x", "} background { rgb 1 }" OPEN " x"},
+        {PLAIN, "fog { distance 9 } x", "} fog { distance 9 }" OPEN " x"},
+        {PLAIN, "sky_sphere { S } x", "} sky_sphere { S }" OPEN " x"},
+        {PLAIN, "rainbow { R } x", "} rainbow { R }" OPEN " x"},
+        {PLAIN, "media { M } x", "} media { M }" OPEN " x"},
+        {PLAIN, "global_settings { assumed_gamma 1 } x", "} global_settings { assumed_gamma 1 }" OPEN " x"},
+        {PLAIN, "light_source { 0 rgb 1 }", NULL},
+        {BASE, "camera { angle 3 } fog { distance 9 } light_source { 0 rgb 1 }", NULL},
+        {BASE2, "camera { angle 3 }\nglobal_settings { }\nfog { \n } media { M } x", "\n\n\n x"},
+        {MIRROR, "camera { angle 3 } fog { distance 9 } background { rgb 1 } x",
+         "} camera { angle 3 }" OPEN " x"},
+        {MIRROR2, "camera { angle 3 } fog { distance 9 } x", " x"},
+        {REFLECTANCE, "camera { angle 3 } sky_sphere { S } x", "} camera { angle 3 }" OPEN " x"},
+        {CODED, "camera { angle 3 } rainbow { R } x", "} camera { angle 3 }" OPEN " x"},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void copy__statements_elsewhere__only_the_top_level_counts(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {PLAIN, "#declare C = camera { angle 3 } #declare F = fog { distance 9 }", NULL},
+        {BASE2, "#declare C = camera { angle 3 }", NULL},
+        {PLAIN, "sphere { 0, 1 interior { media { M } } }", NULL},
+        {PLAIN, "#if (1) camera { angle 3 } #end", "#if (1) } camera { angle 3 }" OPEN " #end"},
+        {BASE2, "#ifdef (X) camera { angle 3 } #else camera { angle 4 } #end", "#ifdef (X) #else #end"},
+        {PLAIN, "#macro C() camera { angle 3 } #end", "#macro C() } camera { angle 3 }" OPEN " #end"},
+        /* A macro's media is mostly for an interior. */
+        {PLAIN, "#macro M() media { M } #if (1) media { N } #end #end media { O }",
+         "#macro M() media { M } #if (1) media { N } #end #end } media { O }" OPEN},
+        {PLAIN, "#while (1) #macro M() #end media { M } #end", "#while (1) #macro M() #end } media { M }" OPEN " #end"},
+        /* Braces that a conditional opens twice and closes once. */
+        {PLAIN, "#if (1) union { #else merge { #end sphere { 0, 1 } }\ncamera { angle 3 }",
+         "#if (1) union { #else merge { #end sphere { 0, 1 } }\n} camera { angle 3 }" OPEN},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void copy__camera_with_aperture__ends_by_the_passes_choice(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {CODED, "camera { aperture 1 }", "} camera { aperture 1 povgloss_camera() }" OPEN},
+        {PLAIN, "#declare C = camera { aperture 1 } camera { C }",
+         "#declare C = camera { aperture 1 } } camera { C povgloss_camera() }" OPEN},
+        {BASE2, "camera { aperture 1 }", ""},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void copy__technical_settings__neither_gamma_nor_photons(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {CODED, "global_settings { assumed_gamma 2.2 max_trace_level 9 }",
+         "} global_settings { adc_bailout 2.2 max_trace_level 9 }" OPEN},
+        {MIRROR, "global_settings { assumed_gamma srgb\n radiosity { count 9\n } photons { spacing 1 } number_of_waves 3 }",
+         "} global_settings { \n \n number_of_waves 3 }" OPEN},
+        {CODED, "global_settings { subsurface { samples 1, 2 } ambient_light 1 }",
+         "} global_settings { ambient_light 1 }" OPEN},
+        {PLAIN, "global_settings { assumed_gamma 2.2 radiosity { } }",
+         "} global_settings { assumed_gamma 2.2 radiosity { } }" OPEN},
+        {REFLECTANCE, "global_settings { assumed_gamma srgb photons { } }",
+         "} global_settings { assumed_gamma srgb photons { } }" OPEN},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void coded__textures_in_objects__become_transforms(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {CODED, "sphere { 0, 1 texture { pigment { rgb 1 } } }", "sphere { 0, 1 transform {} }"},
+        {CODED, "sphere { 0, 1 pigment { rgb 1 } finish { phong 1 } normal { bumps } }",
+         "sphere { 0, 1 transform {} transform {} transform {} }"},
+        {CODED, "sphere { 0, 1 material { M } interior { ior 2 } interior_texture { T } }",
+         "sphere { 0, 1 transform {} transform {} transform {} }"},
+        {CODED, "sphere { 0, 1\n texture {\n T\n }\n hollow }", "sphere { 0, 1\n transform {}\n\n\n hollow }"},
+        {CODED, "union { object { O texture { A } texture { B } } pigment { P } }",
+         "union { object { O transform {} transform {} } transform {} }"},
+        {CODED, "blob { sphere { 0, 1, 1 pigment { P } } }", "blob { sphere { 0, 1, 1 transform {} } }"},
+        {CODED, "#macro M(T) texture { T } #end", "#macro M(T) transform {} #end"},
+        {CODED, "#declare X = sphere { 0, 1 texture { T } }", "#declare X = sphere { 0, 1 transform {} }"},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void coded__declared_textures__stay_with_their_layers(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {CODED, "#declare T = texture { pigment { rgb 1 } finish { phong 1 } }", NULL},
+        {CODED, "#declare T = texture { A } texture { B }\ntexture { C }\nsphere { 0, 1 texture { T } }",
+         "#declare T = texture { A } texture { B }\ntexture { C }\nsphere { 0, 1 transform {} }"},
+        {CODED, "#declare P = pigment { rgb 1 } #declare F = finish { phong 1 } #declare N = normal { bumps }", NULL},
+        {CODED, "#local M = material { texture { T } interior { ior 2 } };", NULL},
+        {CODED, "#declare A[0] = texture { T }", NULL},
+        {CODED, "#default { texture { pigment { rgb 1 } } }", NULL},
+        {CODED, "# default { finish { ambient 0 } } sphere { 0, 1 pigment { P } }",
+         "# default { finish { ambient 0 } } sphere { 0, 1 transform {} }"},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void coded__triangles__textures_go_without_a_transform(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {CODED, "mesh { triangle { a, b, c texture { T } } texture { U } }", "mesh { triangle { a, b, c } transform {} }"},
+        {CODED, "smooth_triangle { a, n, b, n, c, n texture { T } }", "smooth_triangle { a, n, b, n, c, n }"},
+        {CODED, "mesh { triangle { a, b, c\ntexture {\nT } } }", "mesh { triangle { a, b, c\n\n } }"},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void copy__functions__untouched(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {CODED, "#declare F = function { pigment { bozo } }", NULL},
+        {MIRROR, "#declare F = function { pigment { bozo } }", NULL},
+        {MIRROR, "isosurface { function { F(x, y, z).transmit + x } }", NULL},
+        {REFLECTANCE, "#declare F = function (x, y) { F(x, y, 0).transmit + G.filter }", NULL},
+        {MIRROR, "#declare F = function 9, 9 { pigment { bozo } }", NULL},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void mirror__pigments__those_of_the_pass(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {MIRROR, "sphere { 0, 1 pigment { rgb 1 } }", "sphere { 0, 1 pigment { povgloss_pigment } }"},
+        {MIRROR2, "sphere { 0, 1 texture { pigment { rgb\n1 } normal { bumps } } }",
+         "sphere { 0, 1 " TEXTURE "pigment { povgloss_pigment }\n normal { bumps } } }"},
+        {MIRROR, "#declare P = pigment { rgbt 1 } #declare T = pigment { P scale 2 };", NULL},
+        {BASE, "sphere { 0, 1 pigment { rgbt 1 } }", NULL},
+        {PLAIN, "sphere { 0, 1 pigment { rgbt 1 } finish { reflection 1 } }", NULL},
+        {REFLECTANCE, "sphere { 0, 1 pigment { rgb 1 } }", NULL},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void copy__finishes__marked(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {BASE, "sphere { 0, 1 finish { phong 1 } }",
+         "sphere { 0, 1 finish { povgloss_begin(-1) phong 1 povgloss_end() } }"},
+        {BASE, "sphere { 0, 1 finish { } }", "sphere { 0, 1 finish { povgloss_begin(-1) povgloss_end() } }"},
+        {MIRROR, "sphere { 0, 1 texture { finish { reflection 0.5 Gloss(9) } } }",
+         "sphere { 0, 1 " TEXTURE "finish { povgloss_begin(povgloss_texture) #declare povgloss_reflects = 1; reflection 0.5 "
+         "Gloss(9) povgloss_end() } } }"},
+        {REFLECTANCE, "sphere { 0, 1 finish { reflection { 0.1, 1 fresnel } } }",
+         "sphere { 0, 1 finish { povgloss_begin(-1) #declare povgloss_reflects = 1; reflection { 0.1, 1 fresnel } "
+         "povgloss_end() } }"},
+        {PLAIN, "sphere { 0, 1 finish { reflection 1 Gloss(9) } }", NULL},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+/* Names have the indices of their first declaration. */
+static void copy__declared_finishes_and_textures__hand_their_gloss_on(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {BASE, "#declare X = 1; #declare F = finish { phong 1 }\nsphere { 0, X finish { F } }",
+         "#declare X = 1; #declare F = finish { povgloss_begin(-1) phong 1 povgloss_end() } "
+         "#declare povgloss_of_1 = povgloss_last; \n"
+         "sphere { 0, X finish { povgloss_begin(-1) F #ifdef (povgloss_of_1) #declare povgloss_inherited = povgloss_of_1; "
+         "#end povgloss_end() } }"},
+        {BASE, "#declare T = texture { A };\nsphere { 0, 1 texture { T } }",
+         "#declare T = " TEXTURE "A }; #declare povgloss_of_0 = povgloss_last; \n"
+         "sphere { 0, 1 texture { #declare povgloss_texture = -1; T #ifdef (povgloss_of_0) #declare povgloss_texture = "
+         "povgloss_of_0; #end #declare povgloss_last = povgloss_texture; } }"},
+        /* Of layers the last one counts. */
+        {BASE, "#declare T = texture { A } texture { B } x",
+         "#declare T = " TEXTURE "A } " TEXTURE "B } #declare povgloss_of_0 = povgloss_last; x"},
+        {BASE, "#declare A[0] = finish { phong 1 }",
+         "#declare A[0] = finish { povgloss_begin(-1) phong 1 povgloss_end() }"},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void copy__lights__where_they_are_needed(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {PLAIN, "light_source { 0 rgb 1 } #declare L = light_source { 0 rgb 1 } object { L }", NULL},
+        {BASE, "light_source { 0 rgb 1 } #declare L = light_source { 0 rgb 1 } object { L }", NULL},
+        {BASE2, "light_source { 0\nrgb 1 }\nsphere { 0, 1 }", "\n\nsphere { 0, 1 }"},
+        {BASE2, "union { light_source { 0 rgb 1 } sphere { 0, 1 } }", "union { sphere { 0, 1 } }"},
+        {BASE2, "light_source { 0 rgb 1 looks_like { sphere { 0, 1 } } }",
+         "light_source { 0 rgb 1 looks_like { sphere { 0, 1 } } fade_distance 1e-9 fade_power 20 }"},
+        {CODED, "light_source { 0 rgb 1 looks_like { sphere { 0, 1 pigment { P } } } }",
+         "light_source { 0 rgb 1 looks_like { sphere { 0, 1 transform {} } } fade_distance 1e-9 fade_power 20 }"},
+        {BASE2, "#declare L = light_source { 0 rgb 1 }\nlight_source { L translate x }",
+         "#declare L = light_source { 0 rgb 1 }\nlight_source { L translate x fade_distance 1e-9 fade_power 20 }"},
+        {MIRROR, "#declare L = light_source { 0 rgb 1 } object { L translate x } object { M }",
+         "#declare L = light_source { 0 rgb 1 } object { M }"},
+        {BASE2, "light_group { light_source { 0 rgb 1 } object { O } global_lights off }", NULL},
+        {CODED, "light_group { union { light_source { 0 rgb 1 } } }", NULL},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void reflectance__transparency__multiplied_by_0(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {REFLECTANCE, "pigment { rgbt <1, 2, 3, 0.5> }", "pigment { rgbt <1,1,1,0>* <1, 2, 3, 0.5> }"},
+        {REFLECTANCE, "pigment { rgbf V }", "pigment { rgbf <1,1,1,0>* V }"},
+        {REFLECTANCE, "pigment { rgbft 1 }", "pigment { rgbft <1,1,1,0,0>* 1 }"},
+        {REFLECTANCE, "pigment { srgbt V }", "pigment { srgbt <1,1,1,0>* V }"},
+        {REFLECTANCE, "pigment { srgbf V }", "pigment { srgbf <1,1,1,0>* V }"},
+        {REFLECTANCE, "pigment { srgbft V }", "pigment { srgbft <1,1,1,0,0>* V }"},
+        {REFLECTANCE, "pigment { rgb 1 transmit 0.5 }", "pigment { rgb 1 transmit 0* 0.5 }"},
+        {REFLECTANCE, "pigment { Red filter T transmit T }", "pigment { Red filter 0* T transmit 0* T }"},
+        {REFLECTANCE, "pigment { image_map { \"a.png\" filter all 0.5 transmit all T } }",
+         "pigment { image_map { \"a.png\" filter all 0* 0.5 transmit all 0* T } }"},
+        {REFLECTANCE, "#declare T = C.transmit; #declare F = C.filter + C . filter;", NULL},
+        {REFLECTANCE, "#declare G = rgbt 1; pigment { color_map { [0 rgbt G] [1 rgb 1] } }",
+         "#declare G = rgbt <1,1,1,0>* 1; pigment { color_map { [0 rgbt <1,1,1,0>* G] [1 rgb 1] } }"},
+        {MIRROR, "#declare P = pigment { rgbt 1 transmit 1 }", NULL},
+        {REFLECTANCE, "// rgbt 1\n/* transmit 1 */ \"rgbt 1\"", NULL},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void coded__texture_list__refused_with_file_and_line(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct error err;
+    char message[128];
+    load_text(&scene, "\nmesh2 {\n  texture_list { 1, texture { T } }\n}");
+    assert_int_equal(scene_write_copy(&scene, SCENE_COPY_CODED, scratch, &err), RESULT_DATA);
+    snprintf(message, sizeof message, "%s/scene.pov:3: ", scratch);
+    assert_memory_equal(err.text, message, strlen(message));
+    assert_contains(err.text, "texture_list");
+    assert_ok(scene_write_copy(&scene, SCENE_COPY_PLAIN, scratch, &err), err);
+    scene_free(&scene);
+}
+
+static void copy__byte_order_mark__gone(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {PLAIN, "\xEF\xBB\xBFsphere { 0, 1 }", "sphere { 0, 1 }"},
+        {PLAIN, "\xEF\xBB\xBF", ""},
+        {CODED, "\xEF\xBB\xBF#version 3.7; sphere { 0, 1 pigment { P } }", "#version 3.7; sphere { 0, 1 transform {} }"},
+        {PLAIN, "", NULL},
+        {CODED, "// comment", NULL},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void copy__line_ends_of_dos_and_old_macs__kept(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {CODED, "sphere { 0, 1 pigment {\r\nP\r\n}\r\n}", "sphere { 0, 1 transform {}\r\n\r\n\r\n}"},
+        {CODED, "// c\rsphere { 0, 1 pigment {\rP\r}\r}", "// c\rsphere { 0, 1 transform {}\r\r\r}"},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+/* Text that POV-Ray refuses must reach POV-Ray, which says why. */
+static void copy__what_no_scene_has__no_crash(void **state)
+{
+    (void)state;
+    static const char *const sources[] = {
+        "= finish { phong 1 }",
+        "= texture { T }",
+        "finish { phong 1 }",
+        "texture {",
+        "}}}} finish { phong 1 } {{{{",
+        "#declare reflection = 1; finish { reflection 1 }",
+        "#declare pigment = 1; texture { pigment { P } }",
+        "#declare finish = 1; texture { finish { finish finish { } } }",
+        "#declare transmit = 1; finish { transmit all } finish { transmit",
+        "#declare",
+        "#include",
+        "#declare X =",
+        "#declare X = light_source",
+        "object { }",
+        "light_source { }",
+        "Gloss( Gloss(1 Gloss",
+        "assumed_gamma srgb",
+        "global_settings { assumed_gamma srgb }",
+        "global_settings { photons { } radiosity { assumed_gamma 1 } }",
+        "#end #end #macro camera { } function { function { ( { } ) }",
+        "reflection",
+        "#version",
+        "transmit",
+        "rgbt all",
+    };
+    for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
+        struct scene scene;
+        struct error err;
+        write_text("scene.pov", sources[i]);
+        enum result result = load(&scene, "scene.pov", &err);
+        for (int copy = 0; !result && copy < SCENE_COPY_COUNT; copy++)
+            free(copy_text(&scene, (enum scene_copy)copy, 0));
+        scene_free(&scene);
+    }
+}
+
+static void copy__deep_nesting__no_crash(void **state)
+{
+    (void)state;
+    enum { DEPTH = 2000 };
+    struct buffer text = {0};
+    struct scene scene;
+    struct error err;
+    for (int i = 0; i < 2 * DEPTH; i++)
+        assert_ok(buffer_add_text(&text, i < DEPTH ? "texture { " : "} ", &err), err);
+    load_text(&scene, text.data);
+    char *copy = copy_text(&scene, SCENE_COPY_BASE, 0);
+    assert_true(strlen(copy) > text.size + DEPTH * 60);
+    free(copy);
+    for (int i = 0; i < 600; i++) /* more conditionals than are kept track of */
+        assert_ok(buffer_add_text(&text, "#if (1) ", &err), err);
+    scene_free(&scene);
+    load_text(&scene, text.data);
+    free(copy_text(&scene, SCENE_COPY_BASE, 0));
+    scene_free(&scene);
+    buffer_free(&text);
+}
+
+/* ---- includes ---- */
+
+static void include__found__renamed_in_the_copy_and_read(void **state)
+{
+    (void)state;
+    struct scene scene;
+    write_text("a.inc", "#include \"b.inc\"\nsphere { 0, 1 pigment { P } }");
+    write_text("b.inc", "#declare B = 1;");
+    load_text(&scene, "#include \"a.inc\"\n  #include   \"b.inc\" // twice\n#include \"not-there.inc\"\n");
+    assert_int_equal(scene.file_count, 3);
+    assert_string_equal(scene.files[1].path, in_scratch("a.inc"));
+    assert_string_equal(scene.files[2].path, in_scratch("b.inc"));
+    char *text = copy_text(&scene, SCENE_COPY_CODED, 0), *a = copy_text(&scene, SCENE_COPY_CODED, 1),
+         *b = copy_text(&scene, SCENE_COPY_CODED, 2);
+    assert_string_equal(text, "#include \"coded-001-a.inc\"\n  #include   \"coded-002-b.inc\" // twice\n"
+                              "#include \"not-there.inc\"\n");
+    assert_string_equal(a, "#include \"coded-002-b.inc\"\nsphere { 0, 1 transform {} }");
+    assert_string_equal(b, "#declare B = 1;");
+    free(text);
+    free(a);
+    free(b);
+    scene_free(&scene);
+    unlink(in_scratch("a.inc"));
+    unlink(in_scratch("b.inc"));
+}
+
+static void include__in_two_directories__the_first(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct error err;
+    char one[128], two[128];
+    snprintf(one, sizeof one, "%s/one", scratch);
+    snprintf(two, sizeof two, "%s/two", scratch);
+    const char *const directories[] = {one, two};
+    mkdir(one, 0777);
+    mkdir(two, 0777);
+    write_text("one/x.inc", "// one");
+    write_text("two/x.inc", "// two");
+    write_text("two/y.inc", "// two");
+    write_text("scene.inc", "// not in a directory that is looked in");
+    write_text("scene.pov", "#include \"x.inc\" #include \"y.inc\" #include \"scene.inc\"");
+    assert_ok(scene_load(&scene, in_scratch("scene.pov"), directories, 2, &err), err);
+    assert_int_equal(scene.file_count, 3);
+    assert_string_equal(scene.files[1].path, in_scratch("one/x.inc"));
+    assert_string_equal(scene.files[2].path, in_scratch("two/y.inc"));
+    char *text = copy_text(&scene, SCENE_COPY_BASE, 0);
+    assert_string_equal(text, "#include \"base-001-x.inc\" #include \"base-002-y.inc\" #include \"scene.inc\"");
+    free(text);
+    scene_free(&scene);
+    /* No directory at all. */
+    assert_ok(scene_load(&scene, in_scratch("scene.pov"), NULL, 0, &err), err);
+    assert_int_equal(scene.file_count, 1);
+    scene_free(&scene);
+    run("rm -r one two scene.inc");
+}
+
+static void include__absolute_path__taken_as_it_is(void **state)
+{
+    (void)state;
+    struct scene scene;
+    char text[256];
+    write_text("abs.inc", "#declare X = 1;");
+    snprintf(text, sizeof text, "#include \"%s/abs.inc\"", scratch);
+    load_text(&scene, text);
+    assert_int_equal(scene.file_count, 2);
+    char *copy = copy_text(&scene, SCENE_COPY_PLAIN, 0);
+    assert_string_equal(copy, "#include \"plain-001-abs.inc\"");
+    free(copy);
+    scene_free(&scene);
+    unlink(in_scratch("abs.inc"));
+}
+
+static void include__cycle__ends(void **state)
+{
+    (void)state;
+    struct scene scene;
+    write_text("self.inc", "#ifndef (S) #declare S = 1; #include \"self.inc\" #end");
+    write_text("ping.inc", "#include \"pong.inc\"");
+    write_text("pong.inc", "#include \"ping.inc\" #include \"scene.pov\"");
+    load_text(&scene, "#include \"self.inc\" #include \"ping.inc\"");
+    assert_int_equal(scene.file_count, 4);
+    char *self = copy_text(&scene, SCENE_COPY_PLAIN, 1), *pong = copy_text(&scene, SCENE_COPY_PLAIN, 3);
+    assert_string_equal(self, "#ifndef (S) #declare S = 1; #include \"plain-001-self.inc\" #end");
+    assert_string_equal(pong, "#include \"plain-002-ping.inc\" #include \"plain-000-scene.pov\"");
+    free(self);
+    free(pong);
+    scene_free(&scene);
+    run("rm self.inc ping.inc pong.inc");
+}
+
+static void assert_refused(const char *text, const char *place, const char *what)
+{
+    struct scene scene;
+    struct error err;
+    char message[128];
+    write_text("scene.pov", text);
+    if (load(&scene, "scene.pov", &err) != RESULT_DATA)
+        fail_msg("taken: %s", text);
+    snprintf(message, sizeof message, "%s/%s", scratch, place);
+    assert_contains(err.text, message);
+    assert_contains(err.text, what);
+    scene_free(&scene);
+}
+
+static void load__computed_include__refused_with_file_and_line(void **state)
+{
+    (void)state;
+    assert_refused("\n#include concat(\"a\", \".inc\")", "scene.pov:2:", "#include");
+    assert_refused("#include Name", "scene.pov:1:", "#include");
+    assert_refused("#include", "scene.pov:1:", "#include");
+    write_text("a.inc", "\n\n#include Name");
+    assert_refused("#include \"a.inc\"", "a.inc:3:", "#include");
+    unlink(in_scratch("a.inc"));
+}
+
+static void load__unclosed_comment_in_an_include__refused_with_file_and_line(void **state)
+{
+    (void)state;
+    write_text("a.inc", "\n/*");
+    assert_refused("#include \"a.inc\"", "a.inc:2:", "comment");
+    unlink(in_scratch("a.inc"));
+}
+
+static void load__missing_scene_or_folder__refused(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct error err;
+    assert_int_equal(load(&scene, "missing.pov", &err), RESULT_DATA);
+    assert_contains(err.text, in_scratch("missing.pov"));
+    scene_free(&scene);
+    assert_int_equal(scene_load(&scene, scratch, NULL, 0, &err), RESULT_DATA);
+    assert_contains(err.text, scratch);
+    scene_free(&scene);
+    scene_free(&scene);
+}
+
+static void write__missing_folder__refused(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct error err;
+    load_text(&scene, "sphere { 0, 1 }");
+    assert_int_equal(scene_write_copy(&scene, SCENE_COPY_PLAIN, in_scratch("missing"), &err), RESULT_DATA);
+    assert_contains(err.text, in_scratch("missing"));
+    scene_free(&scene);
+}
+
+/* ---- what is learnt of a scene ---- */
+
+static void load__gamma__number_srgb_or_by_version(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double gamma;
+    } cases[] = {
+        {"global_settings { assumed_gamma 2.2 }", 2.2},
+        {"global_settings { assumed_gamma 1 max_trace_level 5 }", 1},
+        {"global_settings { assumed_gamma srgb }", GBUFFER_GAMMA_SRGB},
+        {"global_settings { assumed_gamma 1.0 #if (Rad) radiosity { } #end }", 1},
+        {"#version 3.7; sphere { 0, 1 }", 1},
+        {"#version 3.8;", 1},
+        {"#version 3.6; sphere { 0, 1 }", GBUFFER_GAMMA_SRGB},
+        {"sphere { 0, 1 }", GBUFFER_GAMMA_SRGB},
+        /* POV-Ray takes the first. */
+        {"global_settings { assumed_gamma 1 } global_settings { assumed_gamma 2.2 }", 1},
+        {"#version 3.7; global_settings { assumed_gamma 2.2 } global_settings { assumed_gamma srgb }", 2.2},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct scene scene;
+        load_text(&scene, cases[i].text);
+        assert_near(scene.working_gamma, cases[i].gamma, 1e-12);
+        scene_free(&scene);
+    }
+}
+
+static void load__gamma_by_an_expression__refused_with_file_and_line(void **state)
+{
+    (void)state;
+    assert_refused("global_settings {\n assumed_gamma G }", "scene.pov:2:", "assumed_gamma");
+    assert_refused("global_settings { assumed_gamma 1/2.2 }", "scene.pov:1:", "assumed_gamma");
+    assert_refused("global_settings { assumed_gamma (1) }", "scene.pov:1:", "assumed_gamma");
+    assert_refused("global_settings { assumed_gamma -1 }", "scene.pov:1:", "assumed_gamma");
+    assert_refused("global_settings { assumed_gamma", "scene.pov:1:", "assumed_gamma");
+}
+
+static void load__version__of_the_first_directive(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double version;
+    } cases[] = {
+        {"#version 3.7;", 3.7},         {"// c\n/* d */ #version 3.6;", 3.6}, {"sphere { 0, 1 } #version 3.7;", 0},
+        {"#version unofficial 3.7;", 0}, {"", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct scene scene;
+        load_text(&scene, cases[i].text);
+        assert_near(scene.version, cases[i].version, 1e-12);
+        scene_free(&scene);
+    }
+}
+
+static void load__gloss_calls__counted_with_their_one_exponent(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        int calls;
+        double exponent;
+    } cases[] = {
+        {"sphere { 0, 1 }", 0, -1},
+        {"Gloss(300)", 1, 300},
+        {"Gloss(3e2) Gloss( 300. )", 2, 300},
+        {"Gloss(300) Gloss(100)", 2, -1},
+        {"Gloss(300) Gloss(100) Gloss(300)", 3, -1},
+        {"Gloss(100) Gloss(300) Gloss(300)", 3, -1},
+        {"Gloss(P)", 1, -1},
+        {"Gloss(P) Gloss(300)", 2, -1},
+        {"Gloss(300) Gloss(P)", 2, -1},
+        {"Gloss(2*150)", 1, -1},
+        {"Gloss(0)", 1, 0},
+        {"Gloss_Roughness(0.5)", 1, 7.5}, /* 1/(2 r^4) - 1/2 */
+        {"Gloss_Roughness(0.5) Gloss(7.5)", 2, 7.5},
+        {"Gloss_Roughness(1)", 1, 0},
+        {"Gloss_Roughness(0)", 1, INFINITY},
+        {"// Gloss(1)\n/* Gloss(2) */ \"Gloss(3)\" Gloss (4)", 1, 4},
+        {"#macro Gloss(P) #end", 0, -1},
+        {"Glossy(5) My_Gloss(6) Gloss", 0, -1},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct scene scene;
+        load_text(&scene, cases[i].text);
+        assert_int_equal(scene.gloss_calls, cases[i].calls);
+        if (!(scene.exponent == cases[i].exponent || fabs(scene.exponent - cases[i].exponent) < 1e-12))
+            fail_msg("%s: %g", cases[i].text, scene.exponent);
+        scene_free(&scene);
+    }
+}
+
+static void load__povgloss_inc__its_own_calls_do_not_count(void **state)
+{
+    (void)state;
+    struct scene scene;
+    write_text("povgloss.inc", "#macro Gloss(P) #end #macro Gloss_Roughness(R) Gloss(1/R) #end");
+    load_text(&scene, "#include \"povgloss.inc\" Gloss(50)");
+    assert_int_equal(scene.file_count, 2);
+    assert_int_equal(scene.gloss_calls, 1);
+    assert_near(scene.exponent, 50, 0);
+    scene_free(&scene);
+    unlink(in_scratch("povgloss.inc"));
+}
+
+static void load__plain_mirrors__reflection_without_gloss(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        bool expected;
+    } cases[] = {
+        {"finish { phong 1 }", false},
+        {"finish { reflection 0.5 }", true},
+        {"finish { reflection { 0.1, 1 fresnel } }", true},
+        {"finish { reflection 0.5 Gloss(9) }", false},
+        {"finish { Gloss_Roughness(0.1) reflection { 0.5 } }", false},
+        {"finish { reflection 0.5 Gloss(9) } finish { reflection 0.2 }", true},
+        {"finish { reflection 0 }", false},
+        {"finish { reflection 0.0 }", false},
+        {"finish { reflection R }", true},
+        {"sphere { 0, 1 photons { target reflection on refraction off } }", false},
+        {"#macro R() reflection 0.3 #end", true},
+        {"// finish { reflection 1 }", false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct scene scene;
+        load_text(&scene, cases[i].text);
+        if (scene.plain_mirrors != cases[i].expected)
+            fail_msg("%s", cases[i].text);
+        scene_free(&scene);
+    }
+}
+
+static void load__atmosphere__at_the_top_level_only(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *expected;
+    } cases[] = {
+        {"fog { distance 9 }", "fog"},
+        {"media { scattering { 1, 1 } }", "media"},
+        {"rainbow { R }", "rainbow"},
+        {"#if (1) fog { F } #end", "fog"},
+        {"#declare F = fog { distance 9 }", NULL},
+        {"sphere { 0, 1 interior { media { M } } }", NULL},
+        {"fog_type 1 fog", NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct scene scene;
+        load_text(&scene, cases[i].text);
+        if (cases[i].expected)
+            assert_string_equal(scene.atmosphere, cases[i].expected);
+        else
+            assert_null(scene.atmosphere);
+        scene_free(&scene);
+    }
+}
+
+static void load__names__of_all_files_once(void **state)
+{
+    (void)state;
+    struct scene scene;
+    write_text("n.inc", "#declare In = 1; #declare A = 2;");
+    load_text(&scene, "#declare A = 1; #local Bc = light_source { 0 rgb 1 } #macro M(P) #end #include \"n.inc\"\n"
+                      "#declare A = 3; #declare L = sphere { 0, 1 } // #declare No = 1;\n#declare AA = 1;");
+    static const char names[] = "A\0Bc\0M\0In\0L\0AA";
+    assert_int_equal(scene.names.size, sizeof names);
+    assert_memory_equal(scene.names.data, names, sizeof names);
+    assert_int_equal(scene.lights.size, 3);
+    assert_string_equal(scene.lights.data, "Bc");
+    scene_free(&scene);
+    unlink(in_scratch("n.inc"));
+}
+
+static void names__saved_and_restored__for_the_second_copy(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct buffer save = {0}, restore = {0};
+    struct error err;
+    load_text(&scene, "#declare A = 1; #local B = 2;");
+    assert_ok(scene_save_names(&scene, &save, &err), err);
+    assert_ok(scene_restore_names(&scene, &restore, &err), err);
+    assert_string_equal(save.data, "#ifdef (A) #declare povgloss_saved_0 = A; #end\n"
+                                   "#ifdef (B) #declare povgloss_saved_1 = B; #end\n");
+    assert_string_equal(restore.data, "#ifdef (A) #undef A #end\n"
+                                      "#ifdef (povgloss_saved_0) #declare A = povgloss_saved_0; #end\n"
+                                      "#ifdef (B) #undef B #end\n"
+                                      "#ifdef (povgloss_saved_1) #declare B = povgloss_saved_1; #end\n");
+    buffer_free(&save);
+    buffer_free(&restore);
+    scene_free(&scene);
+}
+
+/* ---- names of copies ---- */
+
+static void copy_name__every_file_and_copy__comes_back(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct error err;
+    write_text("a b'c=\xC3\xA9.inc", "");
+    write_text("n.inc", "");
+    load_text(&scene, "#include \"a b'c=\xC3\xA9.inc\" #include \"n.inc\"");
+    assert_int_equal(scene.file_count, 3);
+    char *names[3 * SCENE_COPY_COUNT];
+    for (int copy = 0; copy < SCENE_COPY_COUNT; copy++)
+        for (int file = 0; file < 3; file++) {
+            char **name = &names[3 * copy + file];
+            assert_ok(scene_copy_name(&scene, (enum scene_copy)copy, file, name, &err), err);
+            assert_int_equal(scene_file_of_copy(&scene, *name), file);
+            for (int other = 0; other < 3 * copy + file; other++)
+                assert_string_not_equal(names[other], *name);
+            /* A command line of POV-Ray and a string of a scene can hold it. */
+            assert_int_equal(strspn(*name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-"),
+                             strlen(*name));
+        }
+    assert_string_equal(names[1], "plain-001-a_b_c___.inc");
+    for (int i = 0; i < 3 * SCENE_COPY_COUNT; i++)
+        free(names[i]);
+    scene_free(&scene);
+    unlink(in_scratch("a b'c=\xC3\xA9.inc"));
+    unlink(in_scratch("n.inc"));
+}
+
+static void file_of_copy__hostile_names__minus_1(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"",           "plain",          "plain-",          "plain-0",     "plain-00",
+                                        "plain-0000", "plain-001-x",    "plain-999-x",     "plain--01-x", "plain-+01-x",
+                                        "Plain-000",  "base3-000-x",    "xplain-000-x",    "-000-x",      "000",
+                                        "mirror-00x", "povgloss.inc",   "scene.pov",       "codedx-000-y", "plain-99999999999"};
+    struct scene scene;
+    load_text(&scene, "sphere { 0, 1 }");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (scene_file_of_copy(&scene, names[i]) != -1)
+            fail_msg("'%s' is a copy", names[i]);
+    assert_int_equal(scene_file_of_copy(&scene, "base2-000-scene.pov"), 0);
+    scene_free(&scene);
+}
+
+/* ---- the sample scenes ---- */
+
+static const char *const samples[] = {"contact", "interior", "metal", "spheres", "two_exponents"};
+enum { SAMPLES = sizeof samples / sizeof *samples };
+
+static char *sample_path(int i)
+{
+    static char path[128];
+    snprintf(path, sizeof path, "povscenes/%s.pov", samples[i]);
+    return path;
+}
+
+static int newlines(const char *text, size_t size)
+{
+    int count = 0;
+    for (size_t i = 0; i < size; i++)
+        count += text[i] == '\n';
+    return count;
+}
+
+/* What a copy keeps is on its line: every #declare of the top level. */
+static void assert_declarations_on_their_lines(const struct scene_file *file, const char *text)
+{
+    struct buffer copy = {0};
+    struct token_list list;
+    struct error err;
+    int at = 0;
+    assert_ok(buffer_add_text(&copy, text, &err), err);
+    assert_ok(scene_lex("copy", &copy, &list, &err), err);
+    for (int i = 0; i < file->list.count; i++) {
+        const struct token *token = &file->list.tokens[i];
+        if (!token_is(&file->source, token, TOKEN_DIRECTIVE, "declare") || token->parent >= 0)
+            continue;
+        char name[128];
+        snprintf(name, sizeof name, "%.*s", (int)token[1].word_length, file->source.data + token[1].word);
+        while (at < list.count && !(token_is(&copy, &list.tokens[at], TOKEN_DIRECTIVE, "declare") &&
+                                    token_is(&copy, &list.tokens[at + 1], TOKEN_WORD, name)))
+            at++;
+        assert_true(at < list.count);
+        assert_int_equal(list.tokens[at].line, token->line);
+        at++;
+    }
+    token_list_free(&list);
+    buffer_free(&copy);
+}
+
+static void copy__sample_scenes__every_line_where_it_was(void **state)
+{
+    (void)state;
+    const char *const directories[] = {"povscenes"};
+    for (int i = 0; i < SAMPLES; i++) {
+        struct scene scene;
+        struct error err;
+        assert_ok(scene_load(&scene, sample_path(i), directories, 1, &err), err);
+        assert_true(scene.file_count >= 2);
+        assert_true(scene.gloss_calls > 0);
+        for (int copy = 0; copy < SCENE_COPY_COUNT; copy++)
+            for (int file = 0; file < scene.file_count; file++) {
+                char *text = copy_text(&scene, (enum scene_copy)copy, file);
+                const struct buffer *source = &scene.files[file].source;
+                assert_int_equal(newlines(text, strlen(text)), newlines(source->data, source->size));
+                assert_declarations_on_their_lines(&scene.files[file], text);
+                free(text);
+            }
+        scene_free(&scene);
+    }
+}
+
+/* Loads a damaged scene and writes its copies: any result, no crash, and no line lost where there is a copy. */
+static void try_damaged(const char *data, size_t size)
+{
+    struct scene scene;
+    struct error err;
+    write_bytes(in_scratch("scene.pov"), data, size);
+    enum result result = load(&scene, "scene.pov", &err);
+    assert_true(result == RESULT_OK || result == RESULT_DATA);
+    for (int copy = 0; !result && copy < SCENE_COPY_COUNT; copy++) {
+        size_t copy_size;
+        char *name;
+        if (scene_write_copy(&scene, (enum scene_copy)copy, scratch, &err))
+            continue;
+        assert_ok(scene_copy_name(&scene, (enum scene_copy)copy, 0, &name, &err), err);
+        char *text = (char *)read_bytes(in_scratch(name), &copy_size);
+        assert_int_equal(newlines(text, copy_size), newlines(data, size));
+        free(text);
+        free(name);
+    }
+    scene_free(&scene);
+}
+
+static void copy__truncated_sample_scenes__no_crash_and_no_line_lost(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SAMPLES; i++) {
+        size_t size;
+        char *data = (char *)read_bytes(sample_path(i), &size);
+        for (size_t length = 0; length < size; length += 37)
+            try_damaged(data, length);
+        free(data);
+    }
+}
+
+static uint32_t next_random(uint32_t *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return *seed >> 8;
+}
+
+static void copy__sample_scenes_with_wrong_bytes__no_crash_and_no_line_lost(void **state)
+{
+    (void)state;
+    static const char bytes[] = "{}()\"/*#=;.,-\n\r \0<>eE1x\\";
+    uint32_t seed = 2002;
+    for (int i = 0; i < SAMPLES; i++) {
+        size_t size;
+        char *data = (char *)read_bytes(sample_path(i), &size), *damaged = malloc(size);
+        assert_non_null(damaged);
+        for (int round = 0; round < 60; round++) {
+            memcpy(damaged, data, size);
+            for (uint32_t flips = 1 + next_random(&seed) % 8; flips > 0; flips--) {
+                char *byte = &damaged[next_random(&seed) % size];
+                *byte = round % 2 ? (char)next_random(&seed) : bytes[next_random(&seed) % (sizeof bytes - 1)];
+            }
+            try_damaged(damaged, size);
+        }
+        free(damaged);
+        free(data);
+    }
+}
+
+/* Nothing but the words that the rewriting knows, in any order. */
+static void copy__random_words__no_crash_and_no_line_lost(void **state)
+{
+    (void)state;
+    static const char *const words[] = {
+        "camera", "finish", "texture", "pigment", "normal", "interior", "material", "interior_texture", "light_source",
+        "light_group", "looks_like", "object", "function", "triangle", "mesh", "fog", "media", "global_settings",
+        "assumed_gamma", "srgb", "radiosity", "photons", "reflection", "Gloss", "Gloss_Roughness", "transmit", "filter",
+        "rgbt", "all", "aperture", "X", "Y", "{", "}", "{", "}", "{", "}", "(", ")", "=", ";", ",", ".", "1", "0", "\n",
+        "#declare", "#local", "#macro", "#end", "#if", "#default", "#include \"scene.pov\"", "#version", "\"s\"", "/**/"};
+    uint32_t seed = 7;
+    for (int round = 0; round < 300; round++) {
+        struct buffer text = {0};
+        struct error err;
+        for (int count = 1 + (int)(next_random(&seed) % 60); count > 0; count--)
+            assert_ok(buffer_printf(&text, &err, "%s ", words[next_random(&seed) % (sizeof words / sizeof *words)]), err);
+        try_damaged(text.data, text.size);
+        buffer_free(&text);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(copy__statements_of_the_top_level__union_broken_dropped_or_kept),
+        cmocka_unit_test(copy__statements_elsewhere__only_the_top_level_counts),
+        cmocka_unit_test(copy__camera_with_aperture__ends_by_the_passes_choice),
+        cmocka_unit_test(copy__technical_settings__neither_gamma_nor_photons),
+        cmocka_unit_test(coded__textures_in_objects__become_transforms),
+        cmocka_unit_test(coded__declared_textures__stay_with_their_layers),
+        cmocka_unit_test(coded__triangles__textures_go_without_a_transform),
+        cmocka_unit_test(copy__functions__untouched),
+        cmocka_unit_test(mirror__pigments__those_of_the_pass),
+        cmocka_unit_test(copy__finishes__marked),
+        cmocka_unit_test(copy__declared_finishes_and_textures__hand_their_gloss_on),
+        cmocka_unit_test(copy__lights__where_they_are_needed),
+        cmocka_unit_test(reflectance__transparency__multiplied_by_0),
+        cmocka_unit_test(coded__texture_list__refused_with_file_and_line),
+        cmocka_unit_test(copy__byte_order_mark__gone),
+        cmocka_unit_test(copy__line_ends_of_dos_and_old_macs__kept),
+        cmocka_unit_test(copy__what_no_scene_has__no_crash),
+        cmocka_unit_test(copy__deep_nesting__no_crash),
+        cmocka_unit_test(include__found__renamed_in_the_copy_and_read),
+        cmocka_unit_test(include__in_two_directories__the_first),
+        cmocka_unit_test(include__absolute_path__taken_as_it_is),
+        cmocka_unit_test(include__cycle__ends),
+        cmocka_unit_test(load__computed_include__refused_with_file_and_line),
+        cmocka_unit_test(load__unclosed_comment_in_an_include__refused_with_file_and_line),
+        cmocka_unit_test(load__missing_scene_or_folder__refused),
+        cmocka_unit_test(write__missing_folder__refused),
+        cmocka_unit_test(load__gamma__number_srgb_or_by_version),
+        cmocka_unit_test(load__gamma_by_an_expression__refused_with_file_and_line),
+        cmocka_unit_test(load__version__of_the_first_directive),
+        cmocka_unit_test(load__gloss_calls__counted_with_their_one_exponent),
+        cmocka_unit_test(load__povgloss_inc__its_own_calls_do_not_count),
+        cmocka_unit_test(load__plain_mirrors__reflection_without_gloss),
+        cmocka_unit_test(load__atmosphere__at_the_top_level_only),
+        cmocka_unit_test(load__names__of_all_files_once),
+        cmocka_unit_test(names__saved_and_restored__for_the_second_copy),
+        cmocka_unit_test(copy_name__every_file_and_copy__comes_back),
+        cmocka_unit_test(file_of_copy__hostile_names__minus_1),
+        cmocka_unit_test(copy__sample_scenes__every_line_where_it_was),
+        cmocka_unit_test(copy__truncated_sample_scenes__no_crash_and_no_line_lost),
+        cmocka_unit_test(copy__sample_scenes_with_wrong_bytes__no_crash_and_no_line_lost),
+        cmocka_unit_test(copy__random_words__no_crash_and_no_line_lost),
+    };
+    return cmocka_run_group_tests_name("scene_rewrite", tests, scratch_setup, scratch_teardown);
+}
