@@ -89,22 +89,25 @@ static void interpolate__a_sample_not_glossy__others_normalised(void **state)
 static void interpolate__only_a_farther_sample__taken_alone(void **state)
 {
     (void)state;
-    struct gbuffer gbuffer = make(6, 1, 12, 1);
-    for (int x = 0; x < 6; x++) {
-        image_row(&gbuffer.phong, 0, 0)[x] = x == 3 ? 50 : 0;
-        set(&gbuffer.specular, x, 0, (float[]){(float)x, 0, 0});
+    for (int down = 0; down < 2; down++) {
+        struct gbuffer gbuffer = down ? make(1, 6, 1, 12) : make(6, 1, 12, 1);
+        for (int n = 0; n < 6; n++) {
+            image_row(&gbuffer.phong, 0, down ? n : 0)[down ? 0 : n] = n == 3 ? 50 : 0;
+            set(&gbuffer.specular, down ? 0 : n, down ? n : 0, (float[]){(float)n, 0, 0});
+        }
+        interpolate(&gbuffer);
+        /* Pixel 3 lies at sample 1.25: the four samples around are 0 to 3. Pixel 2 lies at 0.75: -1 to 2, none is glossy.
+         * From the other side: pixel 10 at 4.75 has 3 to 6, pixel 11 at 5.25 has 4 to 7. */
+        static const bool glossy[12] = {[3] = true, [4] = true, [5] = true, [6] = true, [7] = true,
+                                        [8] = true, [9] = true, [10] = true};
+        for (int n = 0; n < 12; n++) {
+            int x = down ? 0 : n, y = down ? n : 0;
+            assert_near(image_row(&gbuffer.phong, 0, y)[x], glossy[n] ? 50 : 0, 0);
+            assert_near(image_row(&gbuffer.specular, 0, y)[x], glossy[n] ? 3 : 0, 0);
+            assert_near(image_row(&gbuffer.endpoint, 3, y)[x], glossy[n] ? 1 : 0, 0);
+        }
+        gbuffer_free(&gbuffer);
     }
-    interpolate(&gbuffer);
-    /* Pixel 3 lies at sample 1.25: the four samples around are 0 to 3. Pixel 2 lies at 0.75: -1 to 2, none is glossy. */
-    assert_near(image_row(&gbuffer.specular, 0, 0)[3], 3, 0);
-    assert_near(image_row(&gbuffer.phong, 0, 0)[3], 50, 0);
-    assert_near(image_row(&gbuffer.phong, 0, 0)[2], 0, 0);
-    assert_near(image_row(&gbuffer.specular, 0, 0)[2], 0, 0);
-    assert_near(image_row(&gbuffer.endpoint, 3, 0)[2], 0, 0);
-    /* From the other side: pixel 10 at 4.75 has 3 to 6, pixel 11 at 5.25 has 4 to 7. */
-    assert_near(image_row(&gbuffer.specular, 0, 0)[10], 3, 0);
-    assert_near(image_row(&gbuffer.phong, 0, 0)[11], 0, 0);
-    gbuffer_free(&gbuffer);
 }
 
 static void interpolate__two_farther_samples__nearest(void **state)
