@@ -129,10 +129,10 @@ oiiotool --pattern fill:topleft=0,0,0:bottomright=9,1,9 2600x2600 3 --chnames P.
 
 # interrupt_filter SIGNAL STATUS: after a second, which is less than this lobe takes.
 interrupt_filter() {
-    start "$bin/glossfilter" big.exr --phong 1 -o output/picture.png
+    start "$bin/glossfilter" big.exr --phong 60 -o output/picture.png
     sleep 1
     kill "-$1" "$started" || fail "it has ended already: $(cat err)" || return 1
-    finish 3 && left_clean "$2"
+    finish 4 && left_clean "$2"
 }
 for signal in INT:130 TERM:143 HUP:129; do
     check "SIG${signal%:*} while glossfilter filters" interrupt_filter "${signal%:*}" "${signal#*:}"
