@@ -63,19 +63,27 @@ int child_wait(struct child *child)
     return exit_status(status);
 }
 
-void child_kill(struct child *child)
+void child_kill(struct child *const *children, int count)
 {
-    if (child->pid <= 0)
-        return;
-    kill(child->pid, SIGTERM);
-    close_output(child);
-    for (int tenths = 0; tenths < 20; tenths++) {
-        if (waitpid(child->pid, NULL, WNOHANG) != 0) {
-            child->pid = 0;
-            return;
+    int left = 0;
+    for (int i = 0; i < count; i++)
+        if (children[i]->pid > 0) {
+            kill(children[i]->pid, SIGTERM);
+            close_output(children[i]);
+            left++;
         }
-        nanosleep(&(struct timespec){.tv_nsec = 100000000}, NULL);
+    for (int tenths = 0; left > 0 && tenths < 20; tenths++) {
+        for (int i = 0; i < count; i++)
+            if (children[i]->pid > 0 && waitpid(children[i]->pid, NULL, WNOHANG) != 0) {
+                children[i]->pid = 0;
+                left--;
+            }
+        if (left > 0)
+            nanosleep(&(struct timespec){.tv_nsec = 100000000}, NULL);
     }
-    kill(child->pid, SIGKILL);
-    child_wait(child);
+    for (int i = 0; i < count; i++)
+        if (children[i]->pid > 0) {
+            kill(children[i]->pid, SIGKILL);
+            child_wait(children[i]);
+        }
 }

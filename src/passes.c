@@ -11,6 +11,7 @@
 #include "interpolate.h"
 #include "png_io.h"
 #include "position_code.h"
+#include "povray_switches.h"
 #include "scene_rewrite.h"
 #include "work_folder.h"
 
@@ -198,14 +199,20 @@ static enum result add_part(const struct run *run, const struct pass *pass, cons
     char *name = NULL;
     if (!result)
         result = scene_copy_name(&run->scene, (enum scene_copy)part->copy, 0, &name, err);
-    if (!result && part->copy == SCENE_COPY_BASE)
+    if (!result && part->copy == SCENE_COPY_BASE) {
         result = buffer_printf(text, err, "#include \"%s\"\n", name);
-    else if (!result)
-        result = buffer_printf(text, err, "union { povgloss_nothing()\n#include \"%s\"\n%s\n", name, part->modifiers);
+        free(name);
+        return result;
+    }
+    if (!result)
+        result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s\n", part->modifiers);
     if (!result && part->coded)
         result = add_coding_texture(pass, text, err);
-    if (!result && part->copy != SCENE_COPY_BASE)
-        result = buffer_add_text(text, "}\n", err);
+    if (!result)
+        result = buffer_printf(text, err,
+                               "#end\nunion { povgloss_nothing()\n#include \"%s\"\npovgloss_modifiers() }\n"
+                               "#undef povgloss_modifiers\n",
+                               name);
     free(name);
     return result;
 }
@@ -415,20 +422,15 @@ static enum result add_argument(char ***arguments, int *count, struct error *err
 /* The user's .ini files are reached through links, since POV-Ray's command line can't take every path. */
 static enum result add_switch(const struct run *run, char ***arguments, int *count, int index, struct error *err)
 {
-    const char *text = run->options->switches[index], *ini = strcasestr(text, ".ini");
-    if (!ini || strchr(text, '='))
+    const char *text = run->options->switches[index];
+    size_t ini = povray_switch_ini(text);
+    if (!ini)
         return add_argument(arguments, count, err, "%s", text);
-    char name[64];
-    snprintf(name, sizeof name, "../ini%d.ini", index);
-    enum result result = add_argument(arguments, count, err, "%s", name);
-    if (!result && ini[4] == '[') {
-        char *whole;
-        result = text_printf(&whole, err, "%s%s", name, ini + 4);
-        if (!result) {
-            free((*arguments)[*count - 1]);
-            (*arguments)[*count - 1] = whole;
-        }
-    }
+    char *link;
+    enum result result = text_printf(&link, err, "../ini%d.ini%s", index, text + ini);
+    if (!result)
+        result = add_argument(arguments, count, err, "%s", link);
+    free(link);
     return result;
 }
 
@@ -436,10 +438,11 @@ static enum result link_ini_files(const struct run *run, struct error *err)
 {
     enum result result = RESULT_OK;
     for (int i = 0; !result && i < run->options->switch_count; i++) {
-        const char *text = run->options->switches[i], *ini = strcasestr(text, ".ini");
-        if (!ini || strchr(text, '='))
+        const char *text = run->options->switches[i];
+        size_t ini = povray_switch_ini(text);
+        if (!ini)
             continue;
-        char *path = strndup(text, (size_t)(ini - text) + 4), *absolute = path ? realpath(path, NULL) : NULL, name[64];
+        char *path = strndup(text, ini), *absolute = path ? realpath(path, NULL) : NULL, name[64];
         snprintf(name, sizeof name, "ini%d.ini", i);
         result = absolute ? work_folder_link(&run->folder, name, absolute, err)
                           : error_set(err, RESULT_DATA, "%s: can't be read: %s", text, strerror(errno));
@@ -455,7 +458,10 @@ static enum result job_arguments(const struct run *run, enum pass_id id, char **
     const struct passes_options *options = run->options;
     const struct pass *pass = &passes[id];
     int count = 0;
-    enum result result = add_argument(arguments, &count, err, "%s", options->povray);
+    /* POV-Ray runs in a folder of its own. */
+    char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
+    enum result result = add_argument(arguments, &count, err, "%s", program ? program : options->povray);
+    free(program);
     for (int i = 0; !result && i < options->switch_count; i++)
         result = add_switch(run, arguments, &count, i, err);
     if (!result)
@@ -508,9 +514,17 @@ static enum result report_failure(const struct run *run, const struct povray_job
         const char *slash = strrchr(copy, '/');
         int file = scene_file_of_copy(&run->scene, slash ? slash + 1 : copy);
         result = buffer_add(&translated, at, (size_t)(name - at), &ignored);
+        bool wrapper = !strcmp(copy, "pass.pov");
         if (!result)
-            result = buffer_add_text(&translated, file >= 0 ? run->scene.files[file].path : copy, &ignored);
+            result = buffer_add_text(&translated, file >= 0 ? run->scene.files[file].path : wrapper ? run->options->scene : copy,
+                                     &ignored);
         at = end ? end : name + strlen(name);
+        /* The wrapper's own lines mean nothing to the user: what is found there was left open by the scene. */
+        size_t line = wrapper && end ? strspn(end + 1, " line0123456789") : 0;
+        if (line && !result) {
+            result = buffer_add_text(&translated, "' at its end", &ignored);
+            at = end + 1 + line;
+        }
     }
     if (!result && translated.size) {
         ignored = *err;
@@ -640,6 +654,9 @@ static enum result read_exponents(const struct run *run, struct gbuffer *gbuffer
     enum result result = several ? read_codes(run, PASS_EXPONENT, &codes, err) : RESULT_OK;
     if (!result)
         result = image_alloc(&gbuffer->phong, gbuffer->position.width, gbuffer->position.height, 1, err);
+    if (!result && several && (codes.width != gbuffer->phong.width || codes.height != gbuffer->phong.height))
+        result = error_set(err, RESULT_DATA, "%s: the exponent pass is %dx%d, the others %dx%d", run->options->scene,
+                           codes.width, codes.height, gbuffer->phong.width, gbuffer->phong.height);
     for (int y = 0; !result && y < gbuffer->phong.height; y++)
         for (int x = 0; x < gbuffer->phong.width; x++) {
             bool seen = image_row(&gbuffer->position, 2, y)[x] != 0 || image_row(&gbuffer->position, 1, y)[x] != 0 ||
@@ -686,6 +703,21 @@ static enum result drop_w(struct image *image, struct error *err)
     return RESULT_OK;
 }
 
+/* All passes but those of full size are of one size. */
+static enum result check_sizes(const struct run *run, const struct gbuffer *gbuffer, const struct image *directions,
+                               struct error *err)
+{
+    const struct image *images[] = {&gbuffer->specular, &gbuffer->position, &gbuffer->endpoint, directions};
+    const struct image *base = &gbuffer->base, *reflectance = &gbuffer->reflectance;
+    int step = run->options->subsample;
+    bool same = base->width == reflectance->width && base->height == reflectance->height;
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        same &= images[i]->width == base->width / step && images[i]->height == base->height / step;
+    return same ? RESULT_OK
+                : error_set(err, RESULT_DATA, "%s: POV-Ray's images of the passes differ in size: name it with +W "
+                            "and +H", run->options->scene);
+}
+
 static void note_invisible(const struct gbuffer *gbuffer, const char *scene, struct error *note)
 {
     for (int y = 0; y < gbuffer->phong.height; y++)
@@ -712,6 +744,8 @@ static enum result read_images(const struct run *run, struct gbuffer *gbuffer, s
         result = read_coded(run, PASS_ENDPOINT, PASS_ENDPOINT_LOW, &gbuffer->endpoint, err);
     if (!result)
         result = read_coded(run, PASS_DIRECTION, PASS_DIRECTION, &directions, err);
+    if (!result)
+        result = check_sizes(run, gbuffer, &directions, err);
     if (!result)
         result = read_exponents(run, gbuffer, err);
     if (!result) {

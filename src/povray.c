@@ -104,8 +104,12 @@ enum result povray_run(struct povray_job *jobs, int count, int at_once, char *co
         }
         report(jobs, count, progress, context);
     }
+    struct child *left[MAX_JOBS];
+    int left_count = 0;
     for (int i = 0; i < count; i++)
-        child_kill(&jobs[i].child);
+        if (jobs[i].child.pid > 0)
+            left[left_count++] = &jobs[i].child;
+    child_kill(left, left_count);
     return result;
 }
 

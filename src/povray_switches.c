@@ -23,17 +23,28 @@ void povray_switches_free(struct povray_switches *switches)
     *switches = (struct povray_switches){0};
 }
 
-static bool has_ini_ending(const char *argument)
+size_t povray_switch_ini(const char *argument)
 {
-    size_t length = strcspn(argument, "[");
-    return length > 4 && !strncasecmp(argument + length - 4, ".ini", 4);
+    size_t length = strlen(argument);
+    const char *section = length && argument[length - 1] == ']' ? strrchr(argument, '[') : NULL;
+    if (section)
+        length = (size_t)(section - argument);
+    bool is_switch = argument[0] == '+' || argument[0] == '-';
+    return !is_switch && length > 4 && !strncasecmp(argument + length - 4, ".ini", 4) ? length : 0;
+}
+
+/* The name of a setting is a word: a path may have a = of its own. */
+static bool is_setting(const char *argument)
+{
+    size_t length = strspn(argument, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_");
+    return length > 0 && argument[length] == '=';
 }
 
 bool povray_switch_is(const char *argument)
 {
     if ((argument[0] == '+' || argument[0] == '-') && argument[1] && argument[1] != '-')
         return true;
-    return (argument[0] != '-' && strchr(argument, '=')) || has_ini_ending(argument);
+    return povray_switch_ini(argument) > 0 || is_setting(argument);
 }
 
 /* The value of a switch such as +L or of a setting such as Library_Path=, else NULL. */

@@ -5,6 +5,7 @@
 #include "error.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 struct povray_switches {
     const char **passed; /* in their order; they belong to the caller's argv */
@@ -21,6 +22,9 @@ void povray_switches_free(struct povray_switches *switches);
 
 /* Whether an argument looks like one: +W640, -D, Width=640, quality.ini. Options with two hyphens are not. */
 bool povray_switch_is(const char *argument);
+
+/* The length of the path if the argument names an .ini file (`quality.ini`, `quality.ini[final]`), else 0. */
+size_t povray_switch_ini(const char *argument);
 
 /* Takes one. RESULT_USAGE for those that povgloss decides itself (output file and format, header file, several frames). */
 MUST_CHECK enum result povray_switch_take(struct povray_switches *switches, const char *argument, struct error *err);

@@ -84,6 +84,15 @@ static int block_keyword(const struct scene_file *file, int brace)
     return token;
 }
 
+/* Whether the token lies in the braces that fill an array, where POV-Ray takes no directive and no macro. */
+static bool fills_array(const struct scene_file *file, int token)
+{
+    for (int brace = file->list.tokens[token].parent; brace >= 0; brace = file->list.tokens[brace].parent)
+        if (is_mark(file, brace - 1, "]"))
+            return true;
+    return false;
+}
+
 static bool inside(const struct scene_file *file, int token, const char *keyword)
 {
     for (int brace = file->list.tokens[token].parent; brace >= 0; brace = file->list.tokens[brace].parent)
@@ -152,10 +161,12 @@ static bool is_plain_mirror(const struct scene_file *file, int token)
     bool zero = file->list.tokens[token + 1].kind == TOKEN_NUMBER && number_value(file, token + 1) == 0;
     if (brace <= 0 || !is_word(file, brace - 1, "finish") || file->list.tokens[brace].match < 0)
         return !zero;
+    bool gloss = false; /* and not only under some condition */
     for (int i = brace; i < file->list.tokens[brace].match; i++)
-        if (is_word(file, i, "Gloss") || is_word(file, i, "Gloss_Roughness"))
-            return false;
-    return !zero;
+        gloss |= is_word(file, i, "Gloss") || is_word(file, i, "Gloss_Roughness");
+    for (int i = brace; i < file->list.tokens[brace].match; i++)
+        gloss &= file->list.tokens[i].kind != TOKEN_DIRECTIVE;
+    return !zero && !gloss;
 }
 
 /* The first assumed_gamma of a scene is the one that POV-Ray takes. */
@@ -238,6 +249,24 @@ static enum result follow_include(struct scene *scene, int index, int token, con
     return RESULT_OK;
 }
 
+/* `X = array[2] { finish {...}, ... }`, at X. */
+static bool is_filled_array(const struct scene_file *file, int name)
+{
+    if (!is_mark(file, name + 1, "=") || !is_word(file, name + 2, "array"))
+        return false;
+    int token = name + 3;
+    while (is_mark(file, token, "[") || is_mark(file, token, "]") || file->list.tokens[token].kind == TOKEN_NUMBER)
+        token++;
+    return is_mark(file, token, "{");
+}
+
+/* `X = texture {...} texture {...}`, at X. */
+static bool is_layered(const struct scene_file *file, int name)
+{
+    return is_mark(file, name + 1, "=") && is_word(file, name + 2, "texture") && opens_block(file, name + 2) &&
+           is_word(file, file->list.tokens[name + 3].match + 1, "texture");
+}
+
 static enum result note_token(struct scene *scene, int index, int token, struct error *err)
 {
     const struct scene_file *file = &scene->files[index];
@@ -248,6 +277,10 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
         enum result result = add_name(&scene->names, file, token + 1, err);
         if (!result && is_mark(file, token + 2, "=") && is_word(file, token + 3, "light_source"))
             result = add_name(&scene->lights, file, token + 1, err);
+        if (!result && is_filled_array(file, token + 1))
+            result = add_name(&scene->arrays, file, token + 1, err);
+        if (!result && is_layered(file, token + 1))
+            result = add_name(&scene->layered, file, token + 1, err);
         return result;
     }
     if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
@@ -327,6 +360,8 @@ void scene_free(struct scene *scene)
     free(scene->files);
     buffer_free(&scene->names);
     buffer_free(&scene->lights);
+    buffer_free(&scene->arrays);
+    buffer_free(&scene->layered);
     *scene = (struct scene){0};
 }
 
@@ -407,6 +442,31 @@ static enum result write_technical_settings(struct writer *writer, int first, in
     return result;
 }
 
+/* Whether leaving the tokens out would change what follows: they declare something, draw random numbers or call a macro. */
+static bool has_effects(const struct writer *writer, int first, int last)
+{
+    for (int i = first; i <= last; i++)
+        if (writer->file->list.tokens[i].kind == TOKEN_DIRECTIVE || is_word(writer->file, i, "rand") ||
+            (is_mark(writer->file, i + 1, "(") && find_name(&writer->scene->names, writer->file, i) >= 0))
+            return true;
+    return false;
+}
+
+/* Puts `text` in place of the block `keyword { ... }` from `token` to `last`. One with effects is declared in front of it,
+ * as a `type`, so that every copy of the scene draws the same random numbers. */
+static enum result replace_block(struct writer *writer, int token, int last, const char *type, const char *text,
+                                 struct error *err)
+{
+    if (!has_effects(writer, token + 1, last))
+        return replace(writer, token, last, text, err);
+    enum result result = insert_before(writer, token, "#declare povgloss_dropped = ", err);
+    if (!result)
+        result = replace(writer, token, token, type, err);
+    if (!result)
+        result = insert_after(writer, last, "; ", err);
+    return result ? result : buffer_add_text(&writer->out, text, err);
+}
+
 /* camera, global_settings, background ... : statements that no union may contain. */
 static enum result write_statement(struct writer *writer, int token, int last, struct error *err)
 {
@@ -416,7 +476,7 @@ static enum result write_statement(struct writer *writer, int token, int last, s
         return replace(writer, token, last, "", err);
     enum result result = RESULT_OK;
     if (statements != STATEMENTS_STAY)
-        result = insert_before(writer, token, "} ", err);
+        result = insert_before(writer, token, "povgloss_modifiers() } ", err);
     if (!result && settings && writer->rules->technical)
         result = write_technical_settings(writer, token + 2, last, err);
     if (!result && camera && writer->scene->focal_blur)
@@ -431,7 +491,7 @@ static enum result write_statement(struct writer *writer, int token, int last, s
 static enum result inherit_gloss(struct writer *writer, int token, const char *variable, struct error *err)
 {
     int name = find_name(&writer->scene->names, writer->file, token);
-    if (name < 0)
+    if (name < 0 || is_mark(writer->file, token + 1, "["))
         return RESULT_OK;
     enum result result = copy_to(writer, writer->file->list.tokens[token].end, err);
     return result ? result
@@ -447,6 +507,9 @@ static enum result write_finish(struct writer *writer, int token, int last, stru
         insert_after(writer, token + 1, in_texture ? " povgloss_begin(povgloss_texture) " : " povgloss_begin(-1) ", err);
     if (!result)
         result = inherit_gloss(writer, token + 2, "povgloss_inherited", err);
+    /* An element of a filled array comes unmarked. */
+    if (!result && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
+        result = buffer_add_text(&writer->out, " #declare povgloss_reflects = 1; ", err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
@@ -454,14 +517,29 @@ static enum result write_finish(struct writer *writer, int token, int last, stru
     return result;
 }
 
-static enum result write_texture(struct writer *writer, int token, int last, struct error *err)
+/* Whether the texture block at `token` is a further layer: another one ends before it. */
+static bool is_layer(const struct scene_file *file, int token)
+{
+    int first = is_mark(file, token - 1, "}") ? file->list.tokens[token - 1].match : -1;
+    return first > 0 && is_word(file, first - 1, "texture");
+}
+
+static enum result write_texture(struct writer *writer, int token, int last, bool upper, struct error *err)
 {
     enum result result = insert_after(writer, token + 1, " #declare povgloss_texture = -1;", err);
     if (!result)
         result = inherit_gloss(writer, token + 2, "povgloss_texture", err);
     if (!result)
         result = buffer_add_text(&writer->out, " #declare povgloss_last = povgloss_texture; ", err);
-    return result ? result : write_tokens(writer, token + 2, last, err);
+    if (!result)
+        result = write_tokens(writer, token + 2, last, err);
+    if (!result && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
+        result = insert_before(writer, last, " finish { povgloss_begin(-1) #declare povgloss_reflects = 1; povgloss_end() } ",
+                               err);
+    /* Nothing shows through an opaque layer, but a layer that isn't glossy must not hide a glossy one below. */
+    if (!result && upper && writer->rules->pigments && find_name(&writer->scene->layered, writer->file, token + 2) < 0)
+        result = insert_before(writer, last, " #if (povgloss_last < 0) pigment { rgbt 1 } #end ", err);
+    return result;
 }
 
 /* After `#declare X = finish {...}` or the last layer of `#declare X = texture {...}`: remembers whether X is glossy. */
@@ -479,15 +557,19 @@ static const char *const statement_words[] = {"camera",     "global_settings", "
 static const char *const texture_words[] = {"texture",  "pigment", "finish", "normal", "material", "interior_texture",
                                             "interior", NULL};
 
-/* A light that the copy must not have twice goes, unless it brings an object along (looks_like, or a declared light that
- * may have one): then it stays, and fades to nothing within any distance. */
+/* A light that the copy must not have twice goes, unless it brings an object along (looks_like): then it stays, and fades to
+ * nothing within any distance; a declared light takes no such item and stays in a group in which it lights nothing else. */
 static enum result write_light(struct writer *writer, int token, int last, struct error *err)
 {
     const struct scene_file *file = writer->file;
-    bool visible = file->list.tokens[token + 2].kind == TOKEN_WORD;
+    if (find_name(&writer->scene->lights, file, token + 2) >= 0) {
+        enum result result = insert_before(writer, token, "light_group { ", err);
+        return result ? result : insert_after(writer, last, " global_lights on }", err);
+    }
+    bool stays = has_effects(writer, token + 1, last);
     for (int i = token + 2; i < last; i++)
-        visible |= is_word(file, i, "looks_like");
-    if (!visible)
+        stays |= is_word(file, i, "looks_like");
+    if (!stays)
         return replace(writer, token, last, "", err);
     enum result result = write_tokens(writer, token + 2, last, err);
     return result ? result : insert_before(writer, last, " fade_distance 1e-9 fade_power 20 ", err);
@@ -521,46 +603,105 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         return write_light(writer, token, last, err);
     if (unlit && is_declared_light(writer, token))
         return replace(writer, token, last, "", err);
-    bool finish = is_word(file, token, "finish");
-    if (rules->marks && (finish || is_word(file, token, "texture"))) {
-        enum result result =
-            finish ? write_finish(writer, token, last, err) : write_texture(writer, token, last, err);
+    bool finish = is_word(file, token, "finish"), filling = fills_array(file, token);
+    if (rules->marks && !filling && (finish || is_word(file, token, "texture"))) {
+        enum result result = finish ? write_finish(writer, token, last, err)
+                                    : write_texture(writer, token, last, is_layer(file, token), err);
         if (!result && value)
             result = remember_gloss(writer, writer->value_name, last, err);
         return result;
     }
     if (rules->pigments && !value && is_word(file, token, "pigment") && !inside(file, token, "function"))
-        return replace(writer, token, last, "pigment { povgloss_pigment }", err);
+        return replace_block(writer, token, last, "pigment", "pigment { povgloss_pigment }", err);
     if (rules->coded && is_word(file, token, "texture_list"))
         return error_set(err, RESULT_DATA,
                          "%s:%d: a mesh2 with a texture_list can't be taken yet: split it into one mesh for each texture",
                          file->path, file->list.tokens[token].line);
     if (rules->coded && in_list(file, token, texture_words)) {
-        if (value)
+        if (value || filling)
             return copy_to(writer, file->list.tokens[last].end, err);
         int parent = file->list.tokens[token].parent;
+        const char *kind = "texture";
+        for (int i = 0; texture_words[i]; i++)
+            if (is_word(file, token, texture_words[i]) && strcmp(texture_words[i], "interior_texture"))
+                kind = texture_words[i];
         bool triangle = parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
-        return replace(writer, token, last, triangle ? "" : "transform {}", err);
+        return replace_block(writer, token, last, kind, triangle ? "" : "transform {}", err);
     }
     *next = 0;
     return RESULT_OK;
 }
 
-/* filter and transmit of a colour become 0: `transmit T` is `transmit 0*T`, `rgbt V` is `rgbt <1,1,1,0>*V`. */
-static enum result write_opaque(struct writer *writer, int token, struct error *err)
+static bool in_layer(const struct scene_file *file, int token)
+{
+    for (int brace = file->list.tokens[token].parent; brace > 0; brace = file->list.tokens[brace].parent)
+        if (is_word(file, brace - 1, "texture") && is_layer(file, brace - 1))
+            return true;
+    return false;
+}
+
+/* The token after the value that begins at `token`: of the operators that it may have, the four of arithmetic are followed. */
+static int value_end(const struct scene_file *file, int token)
+{
+    for (;;) {
+        while (is_mark(file, token, "+") || is_mark(file, token, "-"))
+            token++;
+        if (is_mark(file, token, "<"))
+            while (token < file->list.count - 1 && !is_mark(file, token, ">"))
+                token++;
+        else if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
+            token = file->list.tokens[token].match;
+        else if (file->list.tokens[token].kind != TOKEN_NUMBER && file->list.tokens[token].kind != TOKEN_WORD)
+            return token;
+        token++;
+        for (;;) {
+            if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
+                token = file->list.tokens[token].match + 1;
+            else if (is_mark(file, token, "["))
+                while (token < file->list.count - 1 && !is_mark(file, token++, "]"))
+                    ;
+            else if (is_mark(file, token, "."))
+                token += 2;
+            else
+                break;
+        }
+        if (!is_mark(file, token, "+") && !is_mark(file, token, "-") && !is_mark(file, token, "*") &&
+            !is_mark(file, token, "/"))
+            return token;
+        token++;
+    }
+}
+
+/* filter and transmit of a colour become 0, but for the upper layers of a texture, which let the lower ones through:
+ * `transmit T` is `transmit 0*(T)`, `rgbt V` is `rgbt <1,1,1,0>*(V)`. In an image_map they may name a palette entry first. */
+static enum result write_opaque(struct writer *writer, int token, int *next, struct error *err)
 {
     static const struct {
         const char *word, *factor;
     } colours[] = {
-        {"rgbt", " <1,1,1,0>*"},  {"rgbf", " <1,1,1,0>*"},     {"rgbft", " <1,1,1,0,0>*"},   {"srgbt", " <1,1,1,0>*"},
-        {"srgbf", " <1,1,1,0>*"}, {"srgbft", " <1,1,1,0,0>*"}, {"transmit", " 0*"}, {"filter", " 0*"},
+        {"rgbt", " <1,1,1,0>*("},   {"rgbf", " <1,1,1,0>*("},   {"rgbft", " <1,1,1,0,0>*("},
+        {"srgbt", " <1,1,1,0>*("},  {"srgbf", " <1,1,1,0>*("},  {"srgbft", " <1,1,1,0,0>*("},
+        {"transmit", " 0*("},       {"filter", " 0*("},
     };
-    if (is_mark(writer->file, token - 1, "."))
-        return RESULT_OK;
+    const struct scene_file *file = writer->file;
+    const char *factor = NULL;
     for (size_t i = 0; i < sizeof colours / sizeof *colours; i++)
-        if (is_word(writer->file, token, colours[i].word))
-            return insert_after(writer, token + is_word(writer->file, token + 1, "all"), colours[i].factor, err);
-    return RESULT_OK;
+        if (is_word(file, token, colours[i].word))
+            factor = colours[i].factor;
+    if (!factor || is_mark(file, token - 1, ".") || in_layer(file, token))
+        return RESULT_OK;
+    int first = token + 1 + is_word(file, token + 1, "all"), end = value_end(file, first);
+    if (is_mark(file, end, ",") && inside(file, token, "image_map")) {
+        first = end + 1;
+        end = value_end(file, first);
+    }
+    if (end == first)
+        return RESULT_OK;
+    enum result result = insert_after(writer, first - 1, factor, err);
+    if (!result)
+        result = insert_after(writer, end - 1, ") ", err);
+    *next = end;
+    return result;
 }
 
 static void track_directive(struct writer *writer, int token)
@@ -609,10 +750,10 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
         } else if (file->list.tokens[i].kind == TOKEN_WORD) {
             if (opens_block(file, i))
                 result = write_block(writer, i, &next, err);
-            if (!result && !next && writer->rules->marks && is_word(file, i, "reflection"))
+            if (!result && !next && writer->rules->marks && is_word(file, i, "reflection") && !fills_array(file, i))
                 result = insert_before(writer, i, "#declare povgloss_reflects = 1; ", err);
             if (!result && !next && writer->rules->opaque)
-                result = write_opaque(writer, i, err);
+                result = write_opaque(writer, i, &next, err);
         }
     }
     return result;

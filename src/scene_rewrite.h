@@ -2,8 +2,8 @@
  *
  * A copy is the user's text with some blocks replaced, line by line where it was, so that a message of POV-Ray about a
  * copy names the line of the user's own file. What replaces them refers to names that the pass's wrapper declares
- * (passes.c): the macros povgloss_begin and povgloss_end around the items of every finish, povgloss_pigment, povgloss_nothing
- * (an object, for unions that would be empty) and, where a camera has an aperture, povgloss_camera at its end.
+ * (passes.c): the macros povgloss_begin and povgloss_end around the items of every finish, povgloss_pigment, povgloss_modifiers
+ * (those of the union around), povgloss_nothing (an object, for unions that would be empty) and, where a camera has an aperture, povgloss_camera at its end.
  */
 #ifndef POVGLOSS_SCENE_REWRITE_H
 #define POVGLOSS_SCENE_REWRITE_H
@@ -27,7 +27,9 @@ struct scene {
     struct scene_file *files; /* the first one is the scene */
     int file_count;
     struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
-    struct buffer lights;  /* names that were declared as a light_source, in the same form */
+    struct buffer lights;  /* in the same form: names that were declared as a light_source, */
+    struct buffer arrays;  /* as an array filled in its declaration, */
+    struct buffer layered; /* as a texture of several layers */
     int gloss_calls;       /* calls of Gloss or Gloss_Roughness outside povgloss.inc */
     double exponent;       /* the one exponent of all these calls; negative: they differ, or aren't plain numbers */
     bool plain_mirrors;    /* some finish may reflect without being glossy */

@@ -464,6 +464,144 @@ object { Thing scale 0.6 }
 object { Thing scale 0.6 translate x*(-2) texture { pigment { rgb <1, 0.8, 0> } } }
 POV
 
+scene "#if around Gloss and around the finish" << 'POV'
+#declare Glossy = 1;
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 #if (Glossy) Gloss(100) #else diffuse 0 #end } }
+object {
+  Ball translate x
+  #if (Glossy) texture { pigment { rgb 0.1 } finish { reflection 0.5 Gloss(100) } }
+  #else pigment { rgb 1 } #end
+}
+object { Ball scale 0.5 translate x*(-1) pigment { rgb 0.4 } finish { reflection 0.3 #if (!Glossy) Gloss(100) #end } }
+POV
+scene "seeded random numbers" << 'POV'
+#declare R = seed(3);
+#for (I, 0, 7)
+  sphere { <3*rand(R) - 1.5, 0.3, 2*rand(R) - 1>, 0.3 pigment { rgb <rand(R), rand(R), rand(R)> } }
+#end
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "declared lights, spotlight and area light" << 'POV'
+#declare L = light_source { <2, 5, -2> rgb 0.4 spotlight point_at 0 radius 15 falloff 25 }
+light_source { L }
+object { L translate x*(-3) }
+light_source { <-2, 4, 0> rgb 0.3 area_light x, z, 3, 3 adaptive 1 }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+object { Ball translate x pigment { rgb 0.7 } }
+POV
+whole_scene "declared camera" << 'POV'
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+#declare Own_Camera = 1;
+#include "stage.inc"
+#declare Eye = camera { location <2, 2.5, -5> right x*4/3 angle 50 look_at <0, 0.5, 0> }
+camera { Eye }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+whole_scene "camera with transforms" << 'POV'
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+#declare Own_Camera = 1;
+#include "stage.inc"
+camera { location <0, 2, -6> right x*4/3 look_at <0, 0.7, 0> rotate y*20 translate <0.2, 0.1, 0> }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+whole_scene "orthographic camera" << 'POV'
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+#declare Own_Camera = 1;
+#include "stage.inc"
+camera { orthographic location <0, 3, -6> right x*6 up y*4.5 look_at <0, 0.7, 0> }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+whole_scene "fisheye camera" << 'POV'
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+#declare Own_Camera = 1;
+#include "stage.inc"
+camera { fisheye location <0, 2, -4> right x*4/3 angle 120 look_at <0, 0.4, 0> }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+whole_scene "neither version nor assumed_gamma" << 'POV'
+#include "stage.inc"
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+whole_scene "far from the origin" << 'POV'
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+#declare Own_Camera = 1;
+#include "stage.inc"
+#declare Far = <3000, -2000, 5000>;
+camera { location Far + <0, 2, -6> right x*4/3 angle 48 look_at Far + y*0.8 }
+box { Far + <-4, -0.1, -3>, Far + <4, 0, 3> pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+sphere { Far + <0.5, 0.7, 0>, 0.7 pigment { checker rgb <0.9, 0.3, 0.1> rgb 0.9 scale 0.3 } }
+sphere { Far + <-1, 0.4, 0>, 0.4 pigment { rgb 0.1 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "arrays of pigments, finishes and textures" << 'POV'
+#declare P = array[2] { pigment { rgb 1 }, pigment { rgb <0.4, 0.1, 0.1> } }
+#declare F = array[2] { finish { diffuse 0.5 }, finish { reflection 0.2 } }
+#declare T = array[2] { texture { P[0] finish { diffuse 0.4 } }, texture { pigment { rgb 0.1 } finish { reflection 0.3 } } }
+object { Ball scale 0.5 translate <-1, 0, -1> pigment { P[1] } finish { F[1] } }
+object { Ball scale 0.6 translate <1, 0, -1> texture { T[1] } }
+object { Floor pigment { P[0] } finish { F[0] reflection 0.5 Gloss(100) } }
+POV
+scene "arrays with glossy elements" << 'POV'
+#declare F = array[2]
+#declare F[0] = finish { diffuse 0.3 }
+#declare F[1] = finish { reflection 0.6 Gloss(400) }
+#declare T = array[2]
+#declare T[0] = texture { pigment { rgb <0.3, 0.1, 0.1> } finish { reflection 0.5 Gloss(50) } }
+#declare T[1] = texture { pigment { rgb <0.1, 0.3, 0.1> } finish { F[0] } }
+#for (I, 0, 1)
+  object { Ball scale 0.7 translate x*(1.6*I - 0.8) texture { T[I] } }
+#end
+object { Floor pigment { rgb 0.3 } finish { F[1] } }
+POV
+scene "names and random numbers declared inside textures" << 'POV'
+#declare R = seed(3);
+#macro Colour() rgb <rand(R), rand(R), rand(R)> #end
+sphere {
+  <3*rand(R) - 1.5, 0.3, 0>, 0.3
+  texture { pigment { Colour() } finish { diffuse 0.5 + 0.3*rand(R) } }
+  normal { bumps rand(R) }
+}
+sphere { <3*rand(R) - 1.5, 0.3, 0>, 0.3 pigment { #local Size = 0.8; Colour() } scale Size }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "declared lamp with looks_like" << 'POV'
+#declare L = light_source { <1, 1.5, 0> rgb 0.3 looks_like { sphere { 0, 0.2 pigment { rgb 1 } finish { emission 1 } } } }
+light_source { L }
+light_source { L translate x*(-2) }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "camera, sky and settings after the objects" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+background { rgb 0.5 }
+object { Ball translate x pigment { rgb 0.1 } finish { reflection 0.5 Gloss(100) } }
+camera { location <0, 2, -6> right x*4/3 angle 50 look_at <0, 0.5, 0> }
+global_settings { max_trace_level 7 }
+object { Ball scale 0.4 translate -x pigment { rgb y } }
+POV
+scene "random numbers inside what a copy leaves out" << 'POV'
+#declare S = seed(5);
+#declare I = 0;
+#while (I < 8)
+  sphere {
+    <4*rand(S) - 2, 0.3, 3*rand(S) - 1.5>, 0.3
+    pigment { rgb rand(S) } finish { reflection 0.5 Gloss(100) }
+  }
+  #declare I = I + 1;
+#end
+object { Floor pigment { #local Grey = 0.3; rgb Grey } }
+POV
+scene "gloss in the lower of two layers" << 'POV'
+object {
+  Floor
+  texture { pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+  texture { pigment { checker rgbt <1, 0.2, 0.1, 0.5> rgbt 1 scale 0.7 } finish { diffuse 0.8 } }
+}
+object { Ball translate x pigment { rgb 0.7 } }
+POV
 wait
 for index in "${!names[@]}"; do
     check "${names[index]}" verdict "$folder/scene$index"

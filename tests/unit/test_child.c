@@ -97,7 +97,7 @@ static void start__second_child__inherits_no_file_of_the_first(void **state)
     strcpy(alone, output_of_command("ls /proc/self/fd >&2", 0));
     start(&first, "exec sleep 30");
     assert_string_equal(output_of_command("ls /proc/self/fd >&2", 0), alone);
-    child_kill(&first);
+    child_kill((struct child *[]){&first}, 1);
     assert_no_child();
 }
 
@@ -111,7 +111,7 @@ static void start__silent_child__reading_does_not_block(void **state)
     assert_int_equal(read(child.output_fd, &byte, 1), -1);
     assert_int_equal(errno, EAGAIN);
     assert_true(now_s() - begin < 5);
-    child_kill(&child);
+    child_kill((struct child *[]){&child}, 1);
 }
 
 static void wait__exit_statuses_and_signals__as_a_shell_says(void **state)
@@ -137,7 +137,7 @@ static void assert_not_started(char *program, const char *directory, bool expect
     assert_contains(err.text, program);
     assert_contains(err.text, reason);
     assert_int_equal(open_files(), before);
-    child_kill(&child);
+    child_kill((struct child *[]){&child}, 1);
     assert_no_child();
 }
 
@@ -166,14 +166,14 @@ static void kill__obedient_child__ends_at_once_and_is_reaped(void **state)
     start(&child, "exec sleep 30");
     pid_t pid = child.pid;
     double begin = now_s();
-    child_kill(&child);
+    child_kill((struct child *[]){&child}, 1);
     assert_true(now_s() - begin < 1.9);
     assert_int_equal(child.pid, 0);
     assert_int_equal(child.output_fd, -1);
     assert_int_equal(kill(pid, 0), -1);
     assert_no_child();
     assert_int_equal(open_files(), before);
-    child_kill(&child);
+    child_kill((struct child *[]){&child}, 1);
 }
 
 static void kill__child_that_ignores_sigterm__killed_after_two_seconds(void **state)
@@ -185,7 +185,7 @@ static void kill__child_that_ignores_sigterm__killed_after_two_seconds(void **st
     assert_int_equal(poll(&wait, 1, 10000), 1);
     pid_t pid = child.pid;
     double begin = now_s();
-    child_kill(&child);
+    child_kill((struct child *[]){&child}, 1);
     double duration = now_s() - begin;
     assert_true(duration > 1.5 && duration < 10);
     assert_int_equal(kill(pid, 0), -1);
@@ -198,7 +198,7 @@ static void kill__child_that_has_ended__reaped(void **state)
     struct child child;
     start(&child, "exit 7");
     output_of(&child);
-    child_kill(&child);
+    child_kill((struct child *[]){&child}, 1);
     assert_no_child();
 }
 
@@ -207,7 +207,7 @@ static void kill__never_started__fine(void **state)
     (void)state;
     struct child child = {0}; /* output_fd 0 is not the child's */
     int before = open_files();
-    child_kill(&child);
+    child_kill((struct child *[]){&child}, 1);
     assert_int_equal(open_files(), before);
     assert_no_child();
 }

@@ -8,7 +8,7 @@ static void is__switches_settings_and_ini_files__yes(void **state)
     (void)state;
     static const char *const yes[] = {"+W640",        "-D",       "+a0.3", "-A",     "Width=640", "Declare=x=1.5",
                                       "quality.ini",  "a/b.INI",  "quality.ini[High]", "x.ini[a.b]",     "-=",
-                                      "Antialias=on", "+L/a b/c", "=",     "a.b=c"};
+                                      "Antialias=on", "+L/a b/c", "a=b.ini", "star*[x].ini"};
     for (size_t i = 0; i < sizeof yes / sizeof *yes; i++)
         if (!povray_switch_is(yes[i]))
             fail_msg("%s", yes[i]);
@@ -18,7 +18,7 @@ static void is__other_arguments__no(void **state)
 {
     (void)state;
     static const char *const no[] = {"", "-", "+", "--help", "--phong=100", "--", "scene.pov", "scene", ".ini", "x.inix",
-                                     "ini", "a.ini.pov", "[a.ini]"};
+                                     "ini", "a.ini.pov", "[a.ini]", "=", "a.b=c", "./a=b.pov"};
     for (size_t i = 0; i < sizeof no / sizeof *no; i++)
         if (povray_switch_is(no[i]))
             fail_msg("%s", no[i]);

@@ -90,21 +90,21 @@ static void copy__statements_of_the_top_level__union_broken_dropped_or_kept(void
 {
     (void)state;
     static const struct rewriting cases[] = {
-        {PLAIN, "camera { angle 3 }\nsphere { 0, 1 }", "} camera { angle 3 }" OPEN "\nsphere { 0, 1 }"},
-        {PLAIN, "background { rgb 1 } x", "} background { rgb 1 }" OPEN " x"},
-        {PLAIN, "fog { distance 9 } x", "} fog { distance 9 }" OPEN " x"},
-        {PLAIN, "sky_sphere { S } x", "} sky_sphere { S }" OPEN " x"},
-        {PLAIN, "rainbow { R } x", "} rainbow { R }" OPEN " x"},
-        {PLAIN, "media { M } x", "} media { M }" OPEN " x"},
-        {PLAIN, "global_settings { assumed_gamma 1 } x", "} global_settings { assumed_gamma 1 }" OPEN " x"},
+        {PLAIN, "camera { angle 3 }\nsphere { 0, 1 }", "povgloss_modifiers() } camera { angle 3 }" OPEN "\nsphere { 0, 1 }"},
+        {PLAIN, "background { rgb 1 } x", "povgloss_modifiers() } background { rgb 1 }" OPEN " x"},
+        {PLAIN, "fog { distance 9 } x", "povgloss_modifiers() } fog { distance 9 }" OPEN " x"},
+        {PLAIN, "sky_sphere { S } x", "povgloss_modifiers() } sky_sphere { S }" OPEN " x"},
+        {PLAIN, "rainbow { R } x", "povgloss_modifiers() } rainbow { R }" OPEN " x"},
+        {PLAIN, "media { M } x", "povgloss_modifiers() } media { M }" OPEN " x"},
+        {PLAIN, "global_settings { assumed_gamma 1 } x", "povgloss_modifiers() } global_settings { assumed_gamma 1 }" OPEN " x"},
         {PLAIN, "light_source { 0 rgb 1 }", NULL},
         {BASE, "camera { angle 3 } fog { distance 9 } light_source { 0 rgb 1 }", NULL},
         {BASE2, "camera { angle 3 }\nglobal_settings { }\nfog { \n } media { M } x", "\n\n\n x"},
         {MIRROR, "camera { angle 3 } fog { distance 9 } background { rgb 1 } x",
-         "} camera { angle 3 }" OPEN " x"},
+         "povgloss_modifiers() } camera { angle 3 }" OPEN " x"},
         {MIRROR2, "camera { angle 3 } fog { distance 9 } x", " x"},
-        {REFLECTANCE, "camera { angle 3 } sky_sphere { S } x", "} camera { angle 3 }" OPEN " x"},
-        {CODED, "camera { angle 3 } rainbow { R } x", "} camera { angle 3 }" OPEN " x"},
+        {REFLECTANCE, "camera { angle 3 } sky_sphere { S } x", "povgloss_modifiers() } camera { angle 3 }" OPEN " x"},
+        {CODED, "camera { angle 3 } rainbow { R } x", "povgloss_modifiers() } camera { angle 3 }" OPEN " x"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -116,16 +116,16 @@ static void copy__statements_elsewhere__only_the_top_level_counts(void **state)
         {PLAIN, "#declare C = camera { angle 3 } #declare F = fog { distance 9 }", NULL},
         {BASE2, "#declare C = camera { angle 3 }", NULL},
         {PLAIN, "sphere { 0, 1 interior { media { M } } }", NULL},
-        {PLAIN, "#if (1) camera { angle 3 } #end", "#if (1) } camera { angle 3 }" OPEN " #end"},
+        {PLAIN, "#if (1) camera { angle 3 } #end", "#if (1) povgloss_modifiers() } camera { angle 3 }" OPEN " #end"},
         {BASE2, "#ifdef (X) camera { angle 3 } #else camera { angle 4 } #end", "#ifdef (X) #else #end"},
-        {PLAIN, "#macro C() camera { angle 3 } #end", "#macro C() } camera { angle 3 }" OPEN " #end"},
+        {PLAIN, "#macro C() camera { angle 3 } #end", "#macro C() povgloss_modifiers() } camera { angle 3 }" OPEN " #end"},
         /* A macro's media is mostly for an interior. */
         {PLAIN, "#macro M() media { M } #if (1) media { N } #end #end media { O }",
-         "#macro M() media { M } #if (1) media { N } #end #end } media { O }" OPEN},
-        {PLAIN, "#while (1) #macro M() #end media { M } #end", "#while (1) #macro M() #end } media { M }" OPEN " #end"},
+         "#macro M() media { M } #if (1) media { N } #end #end povgloss_modifiers() } media { O }" OPEN},
+        {PLAIN, "#while (1) #macro M() #end media { M } #end", "#while (1) #macro M() #end povgloss_modifiers() } media { M }" OPEN " #end"},
         /* Braces that a conditional opens twice and closes once. */
         {PLAIN, "#if (1) union { #else merge { #end sphere { 0, 1 } }\ncamera { angle 3 }",
-         "#if (1) union { #else merge { #end sphere { 0, 1 } }\n} camera { angle 3 }" OPEN},
+         "#if (1) union { #else merge { #end sphere { 0, 1 } }\npovgloss_modifiers() } camera { angle 3 }" OPEN},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -134,9 +134,9 @@ static void copy__camera_with_aperture__ends_by_the_passes_choice(void **state)
 {
     (void)state;
     static const struct rewriting cases[] = {
-        {CODED, "camera { aperture 1 }", "} camera { aperture 1 povgloss_camera() }" OPEN},
+        {CODED, "camera { aperture 1 }", "povgloss_modifiers() } camera { aperture 1 povgloss_camera() }" OPEN},
         {PLAIN, "#declare C = camera { aperture 1 } camera { C }",
-         "#declare C = camera { aperture 1 } } camera { C povgloss_camera() }" OPEN},
+         "#declare C = camera { aperture 1 } povgloss_modifiers() } camera { C povgloss_camera() }" OPEN},
         {BASE2, "camera { aperture 1 }", ""},
     };
     ASSERT_REWRITINGS(cases);
@@ -147,15 +147,15 @@ static void copy__technical_settings__neither_gamma_nor_photons(void **state)
     (void)state;
     static const struct rewriting cases[] = {
         {CODED, "global_settings { assumed_gamma 2.2 max_trace_level 9 }",
-         "} global_settings { adc_bailout 2.2 max_trace_level 9 }" OPEN},
+         "povgloss_modifiers() } global_settings { adc_bailout 2.2 max_trace_level 9 }" OPEN},
         {MIRROR, "global_settings { assumed_gamma srgb\n radiosity { count 9\n } photons { spacing 1 } number_of_waves 3 }",
-         "} global_settings { \n \n number_of_waves 3 }" OPEN},
+         "povgloss_modifiers() } global_settings { \n \n number_of_waves 3 }" OPEN},
         {CODED, "global_settings { subsurface { samples 1, 2 } ambient_light 1 }",
-         "} global_settings { ambient_light 1 }" OPEN},
+         "povgloss_modifiers() } global_settings { ambient_light 1 }" OPEN},
         {PLAIN, "global_settings { assumed_gamma 2.2 radiosity { } }",
-         "} global_settings { assumed_gamma 2.2 radiosity { } }" OPEN},
+         "povgloss_modifiers() } global_settings { assumed_gamma 2.2 radiosity { } }" OPEN},
         {REFLECTANCE, "global_settings { assumed_gamma srgb photons { } }",
-         "} global_settings { assumed_gamma srgb photons { } }" OPEN},
+         "povgloss_modifiers() } global_settings { assumed_gamma srgb photons { } }" OPEN},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -289,7 +289,7 @@ static void copy__lights__where_they_are_needed(void **state)
         {CODED, "light_source { 0 rgb 1 looks_like { sphere { 0, 1 pigment { P } } } }",
          "light_source { 0 rgb 1 looks_like { sphere { 0, 1 transform {} } } fade_distance 1e-9 fade_power 20 }"},
         {BASE2, "#declare L = light_source { 0 rgb 1 }\nlight_source { L translate x }",
-         "#declare L = light_source { 0 rgb 1 }\nlight_source { L translate x fade_distance 1e-9 fade_power 20 }"},
+         "#declare L = light_source { 0 rgb 1 }\nlight_group { light_source { L translate x } global_lights on }"},
         {MIRROR, "#declare L = light_source { 0 rgb 1 } object { L translate x } object { M }",
          "#declare L = light_source { 0 rgb 1 } object { M }"},
         {BASE2, "light_group { light_source { 0 rgb 1 } object { O } global_lights off }", NULL},
@@ -298,23 +298,61 @@ static void copy__lights__where_they_are_needed(void **state)
     ASSERT_REWRITINGS(cases);
 }
 
+static void copy__blocks_with_effects__evaluated_before_they_go(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {MIRROR, "#declare S = seed(1); sphere { 0, 1 pigment { rgb rand(S) } }",
+         "#declare S = seed(1); sphere { 0, 1 #declare povgloss_dropped = pigment { rgb rand(S) }; "
+         "pigment { povgloss_pigment } }"},
+        {CODED, "#declare S = seed(1); sphere { 0, 1\ntexture {\npigment { rgb rand(S) } } }",
+         "#declare S = seed(1); sphere { 0, 1\n#declare povgloss_dropped = texture {\npigment { rgb rand(S) } }; "
+         "transform {} }"},
+        {CODED, "#macro M() 1 #end sphere { 0, 1 interior_texture { pigment { rgb M() } } }",
+         "#macro M() 1 #end sphere { 0, 1 #declare povgloss_dropped = texture { pigment { rgb M() } }; transform {} }"},
+        {MIRROR, "sphere { 0, 1 pigment { rgb sin(1) } }", "sphere { 0, 1 pigment { povgloss_pigment } }"},
+        {BASE2, "#declare S = seed(1); light_source { x*rand(S) rgb 1 }",
+         "#declare S = seed(1); light_source { x*rand(S) rgb 1 fade_distance 1e-9 fade_power 20 }"},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+static void copy__arrays_of_textures__take_no_directives(void **state)
+{
+    (void)state;
+    static const struct rewriting cases[] = {
+        {MIRROR, "#declare F = array[2] { finish { reflection 1 }, finish { diffuse 1 } }", NULL},
+        {CODED, "#declare F = array[1] { texture { pigment { P } } }", NULL},
+        {BASE, "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { F[0] } }",
+         "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { povgloss_begin(-1) "
+         "#declare povgloss_reflects = 1; F[0] povgloss_end() } }"},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
 static void reflectance__transparency__multiplied_by_0(void **state)
 {
     (void)state;
     static const struct rewriting cases[] = {
-        {REFLECTANCE, "pigment { rgbt <1, 2, 3, 0.5> }", "pigment { rgbt <1,1,1,0>* <1, 2, 3, 0.5> }"},
-        {REFLECTANCE, "pigment { rgbf V }", "pigment { rgbf <1,1,1,0>* V }"},
-        {REFLECTANCE, "pigment { rgbft 1 }", "pigment { rgbft <1,1,1,0,0>* 1 }"},
-        {REFLECTANCE, "pigment { srgbt V }", "pigment { srgbt <1,1,1,0>* V }"},
-        {REFLECTANCE, "pigment { srgbf V }", "pigment { srgbf <1,1,1,0>* V }"},
-        {REFLECTANCE, "pigment { srgbft V }", "pigment { srgbft <1,1,1,0,0>* V }"},
-        {REFLECTANCE, "pigment { rgb 1 transmit 0.5 }", "pigment { rgb 1 transmit 0* 0.5 }"},
-        {REFLECTANCE, "pigment { Red filter T transmit T }", "pigment { Red filter 0* T transmit 0* T }"},
+        {REFLECTANCE, "pigment { rgbt <1, 2, 3, 0.5> }", "pigment { rgbt <1,1,1,0>*( <1, 2, 3, 0.5>)  }"},
+        {REFLECTANCE, "pigment { rgbf V }", "pigment { rgbf <1,1,1,0>*( V)  }"},
+        {REFLECTANCE, "pigment { rgbft 1 }", "pigment { rgbft <1,1,1,0,0>*( 1)  }"},
+        {REFLECTANCE, "pigment { srgbt V }", "pigment { srgbt <1,1,1,0>*( V)  }"},
+        {REFLECTANCE, "pigment { srgbf V }", "pigment { srgbf <1,1,1,0>*( V)  }"},
+        {REFLECTANCE, "pigment { srgbft V }", "pigment { srgbft <1,1,1,0,0>*( V)  }"},
+        {REFLECTANCE, "pigment { rgb 1 transmit 0.5 }", "pigment { rgb 1 transmit 0*( 0.5)  }"},
+        {REFLECTANCE, "pigment { Red filter T transmit T }", "pigment { Red filter 0*( T)  transmit 0*( T)  }"},
         {REFLECTANCE, "pigment { image_map { \"a.png\" filter all 0.5 transmit all T } }",
-         "pigment { image_map { \"a.png\" filter all 0* 0.5 transmit all 0* T } }"},
+         "pigment { image_map { \"a.png\" filter all 0*( 0.5)  transmit all 0*( T)  } }"},
+        {REFLECTANCE, "pigment { rgb 1 transmit 1 - T*F(2)[1].x filter -0.5 }",
+         "pigment { rgb 1 transmit 0*( 1 - T*F(2)[1].x)  filter 0*( -0.5)  }"},
+        {REFLECTANCE, "pigment { rgbt A + B*<1, 2, 3, (4 + 5)> }",
+         "pigment { rgbt <1,1,1,0>*( A + B*<1, 2, 3, (4 + 5)>)  }"},
+        {REFLECTANCE, "pigment { image_map { \"a.png\" filter 3, 0.5 transmit N, T } }",
+         "pigment { image_map { \"a.png\" filter 3, 0*( 0.5)  transmit N, 0*( T)  } }"},
         {REFLECTANCE, "#declare T = C.transmit; #declare F = C.filter + C . filter;", NULL},
         {REFLECTANCE, "#declare G = rgbt 1; pigment { color_map { [0 rgbt G] [1 rgb 1] } }",
-         "#declare G = rgbt <1,1,1,0>* 1; pigment { color_map { [0 rgbt <1,1,1,0>* G] [1 rgb 1] } }"},
+         "#declare G = rgbt <1,1,1,0>*( 1) ; pigment { color_map { [0 rgbt <1,1,1,0>*( G) ] [1 rgb 1] } }"},
         {MIRROR, "#declare P = pigment { rgbt 1 transmit 1 }", NULL},
         {REFLECTANCE, "// rgbt 1\n/* transmit 1 */ \"rgbt 1\"", NULL},
     };
@@ -981,6 +1019,8 @@ int main(void)
         cmocka_unit_test(copy__finishes__marked),
         cmocka_unit_test(copy__declared_finishes_and_textures__hand_their_gloss_on),
         cmocka_unit_test(copy__lights__where_they_are_needed),
+        cmocka_unit_test(copy__blocks_with_effects__evaluated_before_they_go),
+        cmocka_unit_test(copy__arrays_of_textures__take_no_directives),
         cmocka_unit_test(reflectance__transparency__multiplied_by_0),
         cmocka_unit_test(coded__texture_list__refused_with_file_and_line),
         cmocka_unit_test(copy__byte_order_mark__gone),
