@@ -7,6 +7,7 @@
 
 #include "bands.h"
 #include "filter_kernel.h"
+#include "interrupt.h"
 #include "lobe.h"
 #include "weights.h"
 
@@ -335,7 +336,7 @@ static void blur(void *context, int first, int end)
     struct filter *filter = context;
     int width = filter->taps.width;
     for (int y = first; y < end; y++)
-        for (int x = 0; x < width; x += FILTER_LANES) {
+        for (int x = 0; x < width && !interrupt_signal(); x += FILTER_LANES) {
             struct filter_lanes lanes = {.x = x, .y = y, .narrow = true, .box = empty_box};
             struct filter_sums sums;
             bool any = false;

@@ -646,32 +646,39 @@ static float decode_exponent(double high, double low)
     return (float)fmax(expm1(128 * code * log(2)), 1e-6);
 }
 
-/* phong: 0 where the camera sees nothing glossy. */
-static enum result read_exponents(const struct run *run, struct gbuffer *gbuffer, struct error *err)
+/* Codes of the exponents, where the scene has several; else an image of the positions' size. */
+static enum result read_exponents(const struct run *run, struct gbuffer *gbuffer, struct image *codes, struct error *err)
 {
-    struct image codes = {0};
-    bool several = run->scene.exponent < 0;
-    enum result result = several ? read_codes(run, PASS_EXPONENT, &codes, err) : RESULT_OK;
-    if (!result)
-        result = image_alloc(&gbuffer->phong, gbuffer->position.width, gbuffer->position.height, 1, err);
-    if (!result && several && (codes.width != gbuffer->phong.width || codes.height != gbuffer->phong.height))
-        result = error_set(err, RESULT_DATA, "%s: the exponent pass is %dx%d, the others %dx%d", run->options->scene,
-                           codes.width, codes.height, gbuffer->phong.width, gbuffer->phong.height);
-    for (int y = 0; !result && y < gbuffer->phong.height; y++)
+    if (run->scene.exponent < 0) {
+        enum result result = read_codes(run, PASS_EXPONENT, codes, err);
+        if (result)
+            return result;
+    }
+    const struct image *like = run->scene.exponent < 0 ? codes : &gbuffer->position;
+    return image_alloc(&gbuffer->phong, like->width, like->height, 1, err);
+}
+
+static bool any_nonzero(const struct image *image, int x, int y)
+{
+    bool any = false;
+    for (int channel = 0; channel < image->channels; channel++)
+        any |= image_row(image, channel, y)[x] != 0;
+    return any;
+}
+
+/* phong: 0 where the camera sees nothing glossy. */
+static void fill_exponents(struct gbuffer *gbuffer, double single, const struct image *codes)
+{
+    for (int y = 0; y < gbuffer->phong.height; y++)
         for (int x = 0; x < gbuffer->phong.width; x++) {
-            bool seen = image_row(&gbuffer->position, 2, y)[x] != 0 || image_row(&gbuffer->position, 1, y)[x] != 0 ||
-                        image_row(&gbuffer->position, 0, y)[x] != 0;
-            bool mirrored = image_row(&gbuffer->endpoint, 3, y)[x] != 0 || image_row(&gbuffer->endpoint, 2, y)[x] != 0 ||
-                            image_row(&gbuffer->endpoint, 1, y)[x] != 0 || image_row(&gbuffer->endpoint, 0, y)[x] != 0;
+            bool glossy = any_nonzero(&gbuffer->position, x, y) && any_nonzero(&gbuffer->endpoint, x, y);
             float exponent = 0;
-            if (seen && mirrored && !several)
-                exponent = (float)fmax(run->scene.exponent, 1e-6);
-            else if (seen && mirrored && image_row(&codes, 2, y)[x] > 0.5f)
-                exponent = decode_exponent(image_row(&codes, 0, y)[x], image_row(&codes, 1, y)[x]);
+            if (glossy && single >= 0)
+                exponent = (float)fmax(single, 1e-6);
+            else if (glossy && image_row(codes, 2, y)[x] > 0.5f)
+                exponent = decode_exponent(image_row(codes, 0, y)[x], image_row(codes, 1, y)[x]);
             image_row(&gbuffer->phong, 0, y)[x] = exponent >= 1e20f ? INFINITY : exponent;
         }
-    image_free(&codes);
-    return result;
 }
 
 /* Where nothing is glossy a is 0 and so is b: the passes file holds what the filter needs. */
@@ -703,19 +710,32 @@ static enum result drop_w(struct image *image, struct error *err)
     return RESULT_OK;
 }
 
-/* All passes but those of full size are of one size. */
+/* The passes of full size are as large as the base, the others as its subsampling says. */
 static enum result check_sizes(const struct run *run, const struct gbuffer *gbuffer, const struct image *directions,
                                struct error *err)
 {
-    const struct image *images[] = {&gbuffer->specular, &gbuffer->position, &gbuffer->endpoint, directions};
-    const struct image *base = &gbuffer->base, *reflectance = &gbuffer->reflectance;
-    int step = run->options->subsample;
-    bool same = base->width == reflectance->width && base->height == reflectance->height;
-    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
-        same &= images[i]->width == base->width / step && images[i]->height == base->height / step;
-    return same ? RESULT_OK
-                : error_set(err, RESULT_DATA, "%s: POV-Ray's images of the passes differ in size: name it with +W "
-                            "and +H", run->options->scene);
+    const struct {
+        const struct image *image;
+        const char *pass;
+        int step;
+    } images[] = {
+        {&gbuffer->reflectance, "reflectance", 1},
+        {&gbuffer->specular, "specular", run->options->subsample},
+        {&gbuffer->position, "position", run->options->subsample},
+        {&gbuffer->endpoint, "endpoint", run->options->subsample},
+        {directions, "direction", run->options->subsample},
+        {&gbuffer->phong, "exponent", run->options->subsample},
+    };
+    const struct image *base = &gbuffer->base;
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++) {
+        int width = base->width / images[i].step, height = base->height / images[i].step;
+        if (images[i].image->width != width || images[i].image->height != height)
+            return error_set(err, RESULT_DATA,
+                             "%s: POV-Ray's image of the %s pass is %dx%d, and %dx%d goes with the base: give +W and +H",
+                             run->options->scene, images[i].pass, images[i].image->width, images[i].image->height, width,
+                             height);
+    }
+    return RESULT_OK;
 }
 
 static void note_invisible(const struct gbuffer *gbuffer, const char *scene, struct error *note)
@@ -730,7 +750,7 @@ static void note_invisible(const struct gbuffer *gbuffer, const char *scene, str
 
 static enum result read_images(const struct run *run, struct gbuffer *gbuffer, struct error *note, struct error *err)
 {
-    struct image directions = {0};
+    struct image directions = {0}, codes = {0};
     enum result result = read_radiance(run, PASS_BASE, &gbuffer->base, err);
     if (!result)
         result = read_radiance(run, PASS_SPECULAR, &gbuffer->specular, err);
@@ -745,10 +765,11 @@ static enum result read_images(const struct run *run, struct gbuffer *gbuffer, s
     if (!result)
         result = read_coded(run, PASS_DIRECTION, PASS_DIRECTION, &directions, err);
     if (!result)
-        result = check_sizes(run, gbuffer, &directions, err);
+        result = read_exponents(run, gbuffer, &codes, err);
     if (!result)
-        result = read_exponents(run, gbuffer, err);
+        result = check_sizes(run, gbuffer, &directions, err);
     if (!result) {
+        fill_exponents(gbuffer, run->scene.exponent, &codes);
         scale_reflectance(&gbuffer->reflectance, run->scene.working_gamma);
         gbuffer->working_gamma = (float)run->scene.working_gamma;
         eye_find(gbuffer, &directions);
@@ -758,6 +779,7 @@ static enum result read_images(const struct run *run, struct gbuffer *gbuffer, s
             result = interpolate_gbuffer(gbuffer, err);
     }
     image_free(&directions);
+    image_free(&codes);
     return result;
 }
 
