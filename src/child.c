@@ -1,3 +1,4 @@
+/* Children by posix_spawn, which reports what exec failed with; their standard error is a pipe that doesn't block. */
 #include "child.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Messages are formatted into the caller's struct error; nothing is printed here. */
 #include "error.h"
 
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* Lines through positions along their rays' directions: the eye is where they meet, by least squares. */
 #include "eye.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Powers and the sRGB curve for positive values; the sign is carried over. */
 #include "gamma.h"
 
 #include <math.h>

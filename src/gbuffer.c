@@ -1,3 +1,4 @@
+/* A gbuffer is a bundle of images; here they are freed together. */
 #include "gbuffer.h"
 
 void gbuffer_free(struct gbuffer *gbuffer)

@@ -1,3 +1,4 @@
+/* Allocation of planes: one block of memory, rows padded to whole vectors. */
 #include "image.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Bilinear interpolation among glossy samples only, so that nothing of what isn't glossy bleeds in. */
 #include "interpolate.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* The handler only remembers the signal; long work looks at it, and the program ends by it. */
 #include "interrupt.h"
 
 #include <signal.h>

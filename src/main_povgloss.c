@@ -213,7 +213,8 @@ static enum result draw(const struct command *command, const struct gbuffer *gbu
     return result;
 }
 
-/* A file that can't be made is told before the passes are rendered. Devices and pipes are opened only when they are written. */
+/* A file that can't be made is told before the passes are rendered. Devices and pipes are opened only when they are
+ * written. */
 static enum result check_place(const char *path, struct error *err)
 {
     struct output_file file;
@@ -246,6 +247,7 @@ static enum result run(struct command *command, const struct povray_switches *sw
     passes->switch_count = switches->passed_count;
     passes->libraries = switches->libraries;
     passes->library_count = switches->library_count;
+    passes->antialias = switches->antialias;
     passes->width = switches->width;
     passes->height = switches->height;
     passes->progress = command->filter.quiet ? no_progress : show_progress;

@@ -1,3 +1,4 @@
+/* A buffer doubles when it grows and always ends with a NUL, so that it can be read as a string. */
 #include "mem.h"
 
 #include <errno.h>

@@ -66,10 +66,10 @@ struct scene_part {
 
 struct pass {
     const char *name;
-    bool digits;    /* a 16-bit PNG of codes; else EXR of radiance */
+    bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
     bool technical;
-    enum position_digits low;
+    enum position_digits digits;
     const char *finish_end;
     const char *mirror_colour;
     struct scene_part first, second;
@@ -98,44 +98,44 @@ static const struct pass passes[PASS_COUNT] = {
                           .second = {-1, NULL, false},
                           .trailer = sky_half},
     [PASS_POSITION] = {.name = "position",
-                       .digits = true,
+                       .codes = true,
                        .technical = true,
-                       .low = POSITION_DIGITS_HIGH,
+                       .digits = POSITION_DIGITS_HIGH,
                        .first = {SCENE_COPY_CODED, "", true},
                        .second = {-1, NULL, false}},
     [PASS_POSITION_LOW] = {.name = "position-low",
-                           .digits = true,
+                           .codes = true,
                            .technical = true,
-                           .low = POSITION_DIGITS_LOW,
+                           .digits = POSITION_DIGITS_LOW,
                            .first = {SCENE_COPY_CODED, "", true},
                            .second = {-1, NULL, false}},
     [PASS_ENDPOINT] = {.name = "endpoint",
-                       .digits = true,
+                       .codes = true,
                        .technical = true,
-                       .low = POSITION_DIGITS_HIGH,
+                       .digits = POSITION_DIGITS_HIGH,
                        .finish_end = end_mirror,
                        .mirror_colour = mirror_white,
                        .first = {SCENE_COPY_CODED, SEEN_IN_MIRRORS, true},
                        .second = {SCENE_COPY_MIRROR_SECOND, MIRRORS, false},
                        .coded_sky = true},
     [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
-                           .digits = true,
+                           .codes = true,
                            .technical = true,
-                           .low = POSITION_DIGITS_LOW,
+                           .digits = POSITION_DIGITS_LOW,
                            .finish_end = end_mirror,
                            .mirror_colour = mirror_white,
                            .first = {SCENE_COPY_CODED, SEEN_IN_MIRRORS, true},
                            .second = {SCENE_COPY_MIRROR_SECOND, MIRRORS, false},
                            .coded_sky = true},
     [PASS_DIRECTION] = {.name = "direction",
-                        .digits = true,
+                        .codes = true,
                         .technical = true,
-                        .low = POSITION_DIGITS_HIGH,
+                        .digits = POSITION_DIGITS_HIGH,
                         .first = {SCENE_COPY_CODED, SEEN_IN_MIRRORS, false},
                         .second = {-1, NULL, false},
                         .coded_sky = true},
     [PASS_EXPONENT] = {.name = "exponent",
-                       .digits = true,
+                       .codes = true,
                        .technical = true,
                        .finish_end = end_mirror,
                        .mirror_colour = mirror_exponent,
@@ -187,7 +187,7 @@ static enum result add_coding_texture(const struct pass *pass, struct buffer *te
 {
     enum result result = buffer_add_text(text, "texture { ", err);
     if (!result)
-        result = position_code_pigment(text, false, pass->low, err);
+        result = position_code_pigment(text, false, pass->digits, err);
     return result ? result : buffer_add_text(text, "finish { emission 1 ambient 0 diffuse 0 specular 0 phong 0 } }\n", err);
 }
 
@@ -233,7 +233,7 @@ static enum result add_coded_sky(const struct pass *pass, struct buffer *text, s
 {
     enum result result = buffer_add_text(text, "sky_sphere { ", err);
     if (!result)
-        result = position_code_pigment(text, true, pass->low, err);
+        result = position_code_pigment(text, true, pass->digits, err);
     return result ? result : buffer_add_text(text, "}\n", err);
 }
 
@@ -476,11 +476,14 @@ static enum result job_arguments(const struct run *run, enum pass_id id, char **
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
     for (int i = 0; !result && always[i]; i++)
         result = add_argument(arguments, &count, err, "%s", always[i]);
-    const char *const *format = pass->digits ? codes : radiance;
+    const char *const *format = pass->codes ? codes : radiance;
     for (int i = 0; !result && format[i]; i++)
         result = add_argument(arguments, &count, err, "%s", format[i]);
     if (!result && !pass->full_size)
         result = add_argument(arguments, &count, err, "%s", "-A");
+    /* Reflectivities are small, and their edges show as much as those of the picture. */
+    if (!result && id == PASS_REFLECTANCE && options->antialias)
+        result = add_argument(arguments, &count, err, "%s", "+A0.01");
     if (!result && pass->technical)
         result = add_argument(arguments, &count, err, "%s", "+Q8");
     if (!result && options->subsample > 1 && !pass->full_size) {
@@ -515,9 +518,9 @@ static enum result report_failure(const struct run *run, const struct povray_job
         int file = scene_file_of_copy(&run->scene, slash ? slash + 1 : copy);
         result = buffer_add(&translated, at, (size_t)(name - at), &ignored);
         bool wrapper = !strcmp(copy, "pass.pov");
+        const char *path = file >= 0 ? run->scene.files[file].path : wrapper ? run->options->scene : copy;
         if (!result)
-            result = buffer_add_text(&translated, file >= 0 ? run->scene.files[file].path : wrapper ? run->options->scene : copy,
-                                     &ignored);
+            result = buffer_add_text(&translated, path, &ignored);
         at = end ? end : name + strlen(name);
         /* The wrapper's own lines mean nothing to the user: what is found there was left open by the scene. */
         size_t line = wrapper && end ? strspn(end + 1, " line0123456789") : 0;
@@ -744,8 +747,8 @@ static void note_invisible(const struct gbuffer *gbuffer, const char *scene, str
         for (int x = 0; x < gbuffer->phong.width; x++)
             if (image_row(&gbuffer->phong, 0, y)[x] > 0)
                 return;
-    error_set(note, RESULT_OK, "%s: the camera sees no glossy surface: does the finish with Gloss() reflect, and is it used?",
-              scene);
+    error_set(note, RESULT_OK,
+              "%s: the camera sees no glossy surface: does the finish with Gloss() reflect, and is it used?", scene);
 }
 
 static enum result read_images(const struct run *run, struct gbuffer *gbuffer, struct error *note, struct error *err)

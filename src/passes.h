@@ -23,6 +23,7 @@ struct passes_options {
     int switch_count;
     const char *const *libraries;  /* the user's +L folders, in their order */
     int library_count;
+    bool antialias;                /* the switches ask for it */
     int width, height;             /* of the image where the switches say it, else 0 */
     int subsample;                 /* 1; 2 or 4: specular, a and b are traced at every so-many-th pixel and interpolated */
     int jobs;                      /* POV-Ray processes at the same time; 0: two more than there are cores */

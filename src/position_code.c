@@ -1,3 +1,4 @@
+/* The coding formula twice: as scene text for POV-Ray, and its inverse in C. Both read the same constants. */
 #include "position_code.h"
 
 #include <math.h>
@@ -22,7 +23,8 @@ enum result position_code_pigment(struct buffer *text, bool direction, enum posi
         struct buffer v = {0};
         result = buffer_printf(&v, err, "0.5 + %.17g*%s/(sqrt(x*x + y*y + z*z) + 1e-30)", SPAN, axes[axis]);
         if (!result && !direction)
-            result = buffer_printf(&v, err, "*(%.17g + %.17g*min(1, max(0, (log(sqrt(x*x + y*y + z*z) + 1e-30) + %.17g)/%.17g)))",
+            result = buffer_printf(&v, err,
+                                   "*(%.17g + %.17g*min(1, max(0, (log(sqrt(x*x + y*y + z*z) + 1e-30) + %.17g)/%.17g)))",
                                    RADIUS_START, RADIUS_SPAN, -FIRST_DECADE, DECADES);
         if (!result && digits == POSITION_DIGITS_HIGH)
             result = buffer_printf(text, err, "[1 function { %s }", v.data);

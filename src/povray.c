@@ -1,3 +1,7 @@
+/* One poll loop over the standard errors of all running processes: end of file means that one has ended.
+ *
+ * POV-Ray writes everything there: banner, options, warnings, errors, and its progress.
+ */
 #include "povray.h"
 
 #include "interrupt.h"

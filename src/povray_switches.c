@@ -87,6 +87,9 @@ enum result povray_switch_take(struct povray_switches *switches, const char *arg
         switches->libraries[switches->library_count++] = library;
         return RESULT_OK;
     }
+    const char *sampling = value_of(argument, "AM", "Sampling_Method"), *setting = value_of(argument, "A", "Antialias");
+    if (setting && !sampling)
+        switches->antialias = argument[0] == '+' || (argument[0] != '-' && !strncasecmp(setting, "on", 2));
     int width = size_of(argument, "W", "Width"), height = size_of(argument, "H", "Height");
     switches->width = width ? width : switches->width;
     switches->height = height ? height : switches->height;

@@ -14,6 +14,7 @@ struct povray_switches {
     int library_count;
     const char *scene; /* +I or Input_File_Name; NULL: none */
     int width, height; /* +W, +H or Width=, Height=; 0: not there */
+    bool antialias;    /* +A or Antialias=on, by the last of them */
 };
 
 /* Room for `capacity` switches; povray_switches_free gives it back. */

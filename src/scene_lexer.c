@@ -1,3 +1,4 @@
+/* One walk over the text cuts tokens, a second one pairs brackets and finds the block around each token. */
 #include "scene_lexer.h"
 
 #include <ctype.h>

@@ -1,3 +1,10 @@
+/* Reading: the files of a scene, and the facts that decide which passes it needs.
+ * Rewriting: a table of rules for each kind of copy, and one walk over the tokens that copies the source and replaces
+ * blocks.
+ *
+ * The places of finishes, textures and lights are found by tokens; whether a finish is glossy is left to POV-Ray, through
+ * the marks, since macros and conditions decide it.
+ */
 #include "scene_rewrite.h"
 
 #include "gbuffer.h"
@@ -534,8 +541,8 @@ static enum result write_texture(struct writer *writer, int token, int last, boo
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
-        result = insert_before(writer, last, " finish { povgloss_begin(-1) #declare povgloss_reflects = 1; povgloss_end() } ",
-                               err);
+        result = insert_before(writer, last,
+                               " finish { povgloss_begin(-1) #declare povgloss_reflects = 1; povgloss_end() } ", err);
     /* Nothing shows through an opaque layer, but a layer that isn't glossy must not hide a glossy one below. */
     if (!result && upper && writer->rules->pigments && find_name(&writer->scene->layered, writer->file, token + 2) < 0)
         result = insert_before(writer, last, " #if (povgloss_last < 0) pigment { rgbt 1 } #end ", err);
@@ -625,7 +632,8 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         for (int i = 0; texture_words[i]; i++)
             if (is_word(file, token, texture_words[i]) && strcmp(texture_words[i], "interior_texture"))
                 kind = texture_words[i];
-        bool triangle = parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
+        bool triangle =
+            parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
         return replace_block(writer, token, last, kind, triangle ? "" : "transform {}", err);
     }
     *next = 0;
@@ -640,7 +648,7 @@ static bool in_layer(const struct scene_file *file, int token)
     return false;
 }
 
-/* The token after the value that begins at `token`: of the operators that it may have, the four of arithmetic are followed. */
+/* The token after the value that begins at `token`; of the operators in it, the four of arithmetic are followed. */
 static int value_end(const struct scene_file *file, int token)
 {
     for (;;) {
@@ -673,7 +681,8 @@ static int value_end(const struct scene_file *file, int token)
 }
 
 /* filter and transmit of a colour become 0, but for the upper layers of a texture, which let the lower ones through:
- * `transmit T` is `transmit 0*(T)`, `rgbt V` is `rgbt <1,1,1,0>*(V)`. In an image_map they may name a palette entry first. */
+ * `transmit T` is `transmit 0*(T)`, `rgbt V` is `rgbt <1,1,1,0>*(V)`. In an image_map they may name a palette entry
+ * first. */
 static enum result write_opaque(struct writer *writer, int token, int *next, struct error *err)
 {
     static const struct {

@@ -2,8 +2,9 @@
  *
  * A copy is the user's text with some blocks replaced, line by line where it was, so that a message of POV-Ray about a
  * copy names the line of the user's own file. What replaces them refers to names that the pass's wrapper declares
- * (passes.c): the macros povgloss_begin and povgloss_end around the items of every finish, povgloss_pigment, povgloss_modifiers
- * (those of the union around), povgloss_nothing (an object, for unions that would be empty) and, where a camera has an aperture, povgloss_camera at its end.
+ * (passes.c): the macros povgloss_begin and povgloss_end around the items of every finish, povgloss_pigment,
+ * povgloss_modifiers (those of the union around), povgloss_nothing (an object, for unions that would be empty) and, where
+ * a camera has an aperture, povgloss_camera at its end.
  */
 #ifndef POVGLOSS_SCENE_REWRITE_H
 #define POVGLOSS_SCENE_REWRITE_H

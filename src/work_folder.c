@@ -1,7 +1,9 @@
+/* Temporary folders by mkdtemp, removed by a walk that doesn't follow links. */
 #include "work_folder.h"
 
 #include "mem.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <ftw.h>
 #include <stdio.h>
@@ -10,14 +12,22 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+static bool is_empty_folder(const char *path)
+{
+    DIR *folder = opendir(path);
+    int entries = 0;
+    while (folder && readdir(folder))
+        entries++;
+    if (folder)
+        closedir(folder);
+    return entries == 2; /* . and .. */
+}
+
 static enum result make_kept(struct work_folder *folder, const char *keep, struct error *err)
 {
-    /* rmdir tells an empty folder from a full one, and mkdir gives it back. */
-    if (rmdir(keep) && errno != ENOENT)
+    if (mkdir(keep, 0777) && !(errno == EEXIST && is_empty_folder(keep)))
         return error_set(err, RESULT_DATA, "%s: can't be the folder to keep: %s; name a new or an empty one", keep,
-                         strerror(errno));
-    if (mkdir(keep, 0777))
-        return error_set(err, RESULT_DATA, "%s: the folder can't be made: %s", keep, strerror(errno));
+                         strerror(errno == EEXIST ? ENOTEMPTY : errno));
     folder->path = realpath(keep, NULL);
     folder->keep = true;
     return folder->path ? RESULT_OK : error_set(err, RESULT_DATA, "%s: %s", keep, strerror(errno));

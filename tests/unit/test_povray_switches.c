@@ -129,6 +129,28 @@ static void take__what_povgloss_decides__refused_with_a_cure(void **state)
     }
 }
 
+static void take__antialiasing__last_wins(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *first, *second;
+        bool antialias;
+    } cases[] = {
+        {"+A0.3", "+W9", true}, {"+A", "-A", false}, {"-A", "+a0.1", true},          {"+AM2", "+H9", false},
+        {"+A0.3", "+AM2", true}, {"+A0.3", "Antialias=off", false}, {"-AM1", "antialias=On", true},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct povray_switches switches;
+        struct error err;
+        assert_int_equal(povray_switches_make(&switches, 2, &err), RESULT_OK);
+        assert_int_equal(povray_switch_take(&switches, cases[i].first, &err), RESULT_OK);
+        assert_int_equal(povray_switch_take(&switches, cases[i].second, &err), RESULT_OK);
+        if (switches.antialias != cases[i].antialias)
+            fail_msg("%s %s", cases[i].first, cases[i].second);
+        povray_switches_free(&switches);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -139,6 +161,7 @@ int main(void)
         cmocka_unit_test(take__size_twice__last_wins),
         cmocka_unit_test(take__libraries_and_scene__taken_out),
         cmocka_unit_test(take__what_povgloss_decides__refused_with_a_cure),
+        cmocka_unit_test(take__antialiasing__last_wins),
     };
     return cmocka_run_group_tests_name("povray_switches", tests, NULL, NULL);
 }
