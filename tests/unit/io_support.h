@@ -109,7 +109,7 @@ __attribute__((unused)) static const char *full_device(void)
         return "/dev/full";
     const char *path = in_scratch("full");
     if (access(path, F_OK) != 0 && mknod(path, S_IFCHR | 0666, makedev(1, 7)) != 0)
-        skip();
+        return "/dev/full";
     return path;
 }
 
