@@ -645,7 +645,7 @@ static void scale_reflectance(struct image *reflectance, double gamma)
 /* The exponent of a pixel whose code is (high, low, 1), see mirror_exponent. */
 static float decode_exponent(double high, double low)
 {
-    double code = high + low / 65535;
+    double code = (round(65535 * high) + low) / 65535; /* a float holds the 16 bits, but not their quotient */
     return (float)fmax(expm1(128 * code * log(2)), 1e-6);
 }
 
@@ -774,7 +774,7 @@ static enum result read_images(const struct run *run, struct gbuffer *gbuffer, s
     if (!result) {
         fill_exponents(gbuffer, run->scene.exponent, &codes);
         scale_reflectance(&gbuffer->reflectance, run->scene.working_gamma);
-        gbuffer->working_gamma = (float)run->scene.working_gamma;
+        gbuffer->working_gamma = run->scene.working_gamma == 1 ? 0 : (float)run->scene.working_gamma;
         eye_find(gbuffer, &directions);
         clear_unused(gbuffer);
         note_invisible(gbuffer, run->options->scene, note);

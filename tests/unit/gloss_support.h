@@ -211,7 +211,8 @@ UNUSED static double oracle_error(const struct gbuffer *gbuffer, const struct fi
             double expected[3], r = (double)image_row(&radius, 0, y)[x];
             oracle_pixel(gbuffer, r, options->window == FILTER_WINDOW_SQUARE, weight, x, y, expected);
             for (int i = 0; i < 3; i++) {
-                double error = fabs((double)image_row(&glossy, i, y)[x] - expected[i]) / fabs(expected[i]);
+                double difference = fabs((double)image_row(&glossy, i, y)[x] - expected[i]);
+                double error = difference == 0 ? 0 : difference / fabs(expected[i]); /* black may be exactly black */
                 if (!(error <= worst))
                     worst = isnan(error) ? INFINITY : error;
             }
