@@ -1,0 +1,218 @@
+/* Reads what the passes left: codes from 16-bit PNG, radiance from EXR. See pass_scene.c for how each was coded. */
+#include "pass_images.h"
+
+#include "exr_io.h"
+#include "eye.h"
+#include "gamma.h"
+#include "interpolate.h"
+#include "pass_scene.h"
+#include "png_io.h"
+#include "position_code.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static enum result read_codes(const struct pass_images *images, enum pass_id id, struct image *image, struct error *err)
+{
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s/image.png", images->folder, pass_table[id].name);
+    if (result)
+        return result;
+    result = png_read(path, image, err);
+    free(path);
+    return result;
+}
+
+static enum result read_radiance(const struct pass_images *images, enum pass_id id, struct image *image, struct error *err)
+{
+    struct exr_contents contents = {0};
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s/image.exr", images->folder, pass_table[id].name);
+    if (result)
+        return result;
+    result = exr_read(path, &contents, err);
+    if (!result)
+        result = image_alloc(image, contents.image.width, contents.image.height, 3, err);
+    static const char *const names[] = {"R", "G", "B"};
+    for (int channel = 0; !result && channel < 3; channel++) {
+        int from = exr_find(&contents, names[channel]);
+        if (from < 0)
+            result = error_set(err, RESULT_POVRAY, "%s: has no channel %s", path, names[channel]);
+        for (int y = 0; !result && y < image->height; y++)
+            memcpy(image_row(image, channel, y), image_row(&contents.image, from, y),
+                   (size_t)image->width * sizeof(float));
+    }
+    exr_contents_free(&contents);
+    free(path);
+    return result;
+}
+
+static enum result read_coded(const struct pass_images *images, enum pass_id high_id, enum pass_id low_id, struct image *decoded,
+                              struct error *err)
+{
+    struct image high = {0}, low = {0};
+    enum result result = read_codes(images, high_id, &high, err);
+    if (!result && low_id != high_id)
+        result = read_codes(images, low_id, &low, err);
+    if (!result)
+        result = position_code_decode(&high, low_id != high_id ? &low : NULL, decoded, err);
+    image_free(&high);
+    image_free(&low);
+    return result;
+}
+
+/* The pass is rendered under a sky of one half of the working space. */
+static void scale_reflectance(struct image *reflectance, double gamma)
+{
+    for (int channel = 0; channel < 3; channel++)
+        for (int y = 0; y < reflectance->height; y++) {
+            float *row = image_row(reflectance, channel, y);
+            for (int x = 0; x < reflectance->width; x++)
+                row[x] = (float)(gamma_encode(gamma, row[x]) / 0.5);
+        }
+}
+
+/* The exponent of a pixel whose code is (high, low, 1), see mirror_exponent. */
+static float decode_exponent(double high, double low)
+{
+    double code = (round(65535 * high) + low) / 65535; /* a float holds the 16 bits, but not their quotient */
+    return (float)fmax(expm1(128 * code * log(2)), 1e-6);
+}
+
+/* Codes of the exponents, where the scene has several; else an image of the positions' size. */
+static enum result read_exponents(const struct pass_images *images, struct gbuffer *gbuffer, struct image *codes, struct error *err)
+{
+    if (images->scene->exponent < 0) {
+        enum result result = read_codes(images, PASS_EXPONENT, codes, err);
+        if (result)
+            return result;
+    }
+    const struct image *like = images->scene->exponent < 0 ? codes : &gbuffer->position;
+    return image_alloc(&gbuffer->phong, like->width, like->height, 1, err);
+}
+
+static bool any_nonzero(const struct image *image, int x, int y)
+{
+    bool any = false;
+    for (int channel = 0; channel < image->channels; channel++)
+        any |= image_row(image, channel, y)[x] != 0;
+    return any;
+}
+
+/* phong: 0 where the camera sees nothing glossy. */
+static void fill_exponents(struct gbuffer *gbuffer, double single, const struct image *codes)
+{
+    for (int y = 0; y < gbuffer->phong.height; y++)
+        for (int x = 0; x < gbuffer->phong.width; x++) {
+            bool glossy = any_nonzero(&gbuffer->position, x, y) && any_nonzero(&gbuffer->endpoint, x, y);
+            float exponent = 0;
+            if (glossy && single >= 0)
+                exponent = (float)fmax(single, 1e-6);
+            else if (glossy && image_row(codes, 2, y)[x] > 0.5f)
+                exponent = decode_exponent(image_row(codes, 0, y)[x], image_row(codes, 1, y)[x]);
+            image_row(&gbuffer->phong, 0, y)[x] = exponent >= 1e20f ? INFINITY : exponent;
+        }
+}
+
+/* Where nothing is glossy a is 0 and so is b: the passes file holds what the filter needs. */
+static void clear_unused(struct gbuffer *gbuffer)
+{
+    for (int y = 0; y < gbuffer->phong.height; y++)
+        for (int x = 0; x < gbuffer->phong.width; x++) {
+            if (image_row(&gbuffer->phong, 0, y)[x] > 0)
+                continue;
+            for (int channel = 0; channel < 4; channel++) {
+                image_row(&gbuffer->endpoint, channel, y)[x] = 0;
+                if (channel < 3) {
+                    image_row(&gbuffer->position, channel, y)[x] = 0;
+                    image_row(&gbuffer->specular, channel, y)[x] = 0;
+                }
+            }
+        }
+}
+
+static enum result drop_w(struct image *image, struct error *err)
+{
+    struct image three;
+    enum result result = image_alloc(&three, image->width, image->height, 3, err);
+    if (result)
+        return result;
+    memcpy(three.pixels, image->pixels, three.stride * (size_t)three.height * 3 * sizeof(float));
+    image_free(image);
+    *image = three;
+    return RESULT_OK;
+}
+
+/* The passes of full size are as large as the base, the others as its subsampling says. */
+static enum result check_sizes(const struct pass_images *images, const struct gbuffer *gbuffer, const struct image *directions,
+                               struct error *err)
+{
+    const struct {
+        const struct image *image;
+        const char *pass;
+        int step;
+    } planes[] = {
+        {&gbuffer->reflectance, "reflectance", 1},
+        {&gbuffer->specular, "specular", images->subsample},
+        {&gbuffer->position, "position", images->subsample},
+        {&gbuffer->endpoint, "endpoint", images->subsample},
+        {directions, "direction", images->subsample},
+        {&gbuffer->phong, "exponent", images->subsample},
+    };
+    const struct image *base = &gbuffer->base;
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
+        int width = base->width / planes[i].step, height = base->height / planes[i].step;
+        if (planes[i].image->width != width || planes[i].image->height != height)
+            return error_set(err, RESULT_DATA,
+                             "%s: POV-Ray's image of the %s pass is %dx%d, and %dx%d goes with the base: give +W and +H",
+                             images->name, planes[i].pass, planes[i].image->width, planes[i].image->height, width,
+                             height);
+    }
+    return RESULT_OK;
+}
+
+static void note_invisible(const struct gbuffer *gbuffer, const char *scene, struct error *note)
+{
+    for (int y = 0; y < gbuffer->phong.height; y++)
+        for (int x = 0; x < gbuffer->phong.width; x++)
+            if (image_row(&gbuffer->phong, 0, y)[x] > 0)
+                return;
+    error_set(note, RESULT_OK,
+              "%s: the camera sees no glossy surface: does the finish with Gloss() reflect, and is it used?", scene);
+}
+
+enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note, struct error *err)
+{
+    struct image directions = {0}, codes = {0};
+    enum result result = read_radiance(images, PASS_BASE, &gbuffer->base, err);
+    if (!result)
+        result = read_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
+    if (!result)
+        result = read_radiance(images, PASS_REFLECTANCE, &gbuffer->reflectance, err);
+    if (!result)
+        result = read_coded(images, PASS_POSITION, PASS_POSITION_LOW, &gbuffer->position, err);
+    if (!result)
+        result = drop_w(&gbuffer->position, err);
+    if (!result)
+        result = read_coded(images, PASS_ENDPOINT, PASS_ENDPOINT_LOW, &gbuffer->endpoint, err);
+    if (!result)
+        result = read_coded(images, PASS_DIRECTION, PASS_DIRECTION, &directions, err);
+    if (!result)
+        result = read_exponents(images, gbuffer, &codes, err);
+    if (!result)
+        result = check_sizes(images, gbuffer, &directions, err);
+    if (!result) {
+        fill_exponents(gbuffer, images->scene->exponent, &codes);
+        scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
+        gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
+        eye_find(gbuffer, &directions);
+        clear_unused(gbuffer);
+        note_invisible(gbuffer, images->name, note);
+        if (images->subsample > 1)
+            result = interpolate_gbuffer(gbuffer, err);
+    }
+    image_free(&directions);
+    image_free(&codes);
+    return result;
+}

@@ -1,0 +1,22 @@
+/* The images that POV-Ray made of the passes, as a gbuffer. */
+#ifndef POVGLOSS_PASS_IMAGES_H
+#define POVGLOSS_PASS_IMAGES_H
+
+#include "gbuffer.h"
+#include "scene_rewrite.h"
+
+/* Where the images are, and what their decoding needs. */
+struct pass_images {
+    const char *folder; /* image.exr or image.png of each pass in a folder of its name */
+    const char *name;   /* of the scene, for messages */
+    const struct scene *scene;
+    int subsample;
+};
+
+/* Reads and decodes all of them into *gbuffer: a and b, the eye, exponents, reflectance in the working space; subsampled
+ * passes interpolated. RESULT_DATA where an image is missing, broken or of another size than the others; then, too, the
+ * caller frees the gbuffer. *note is a warning worth a line where nothing glossy is seen. */
+MUST_CHECK enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
+                                        struct error *err);
+
+#endif

@@ -1,0 +1,225 @@
+/* The table of the passes, and the wrapper that puts a pass's copies, macros, textures and skies into one scene. */
+#include "pass_scene.h"
+
+#include <stdlib.h>
+
+/* What povgloss_end puts last into every finish. Later items of a finish override earlier ones; povgloss_phong is 0 or more
+ * when the finish called Gloss() or began with a glossy one, povgloss_reflects is 1 when it names a reflection of its own.
+ * A finish without either keeps what it has. */
+static const char end_base[] = "#if (povgloss_phong >= 0) reflection { 0 } #end";
+static const char end_mirror[] = "povgloss_dark()\n"
+                                 "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
+                                 "exponent 1 metallic 0 }\n"
+                                 "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
+/* An exponent of 0.001 takes the sky's one half to nothing, and leaves the reflectivity for a later Gloss(). */
+static const char end_reflectance[] = "povgloss_dark()\n"
+                                      "  #if (povgloss_phong >= 0) reflection_exponent 1\n"
+                                      "  #else #if (povgloss_reflects) reflection_exponent 0.001 #end #end";
+
+static const char mirror_white[] = "rgb 1";
+/* log2(1 + p)/128 in two digits of 16 bits. */
+static const char mirror_exponent[] = "#local povgloss_v = 65535*log(1 + povgloss_phong)/log(2)/128;\n"
+                                      "  rgb <floor(povgloss_v)/65535, povgloss_v - floor(povgloss_v), 1>";
+
+static const char sky_half[] = "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } no_reflection no_shadow }\n"
+                               "sky_sphere { pigment { rgb 0.5 } }\n";
+static const char sky_white[] = "sky_sphere { pigment { rgb 1 } }\n";
+#define MIRRORS "no_reflection no_shadow no_radiosity"
+#define SEEN_IN_MIRRORS "no_image"
+
+const struct pass pass_table[PASS_COUNT] = {
+    [PASS_BASE] = {.name = "base",
+                   .full_size = true,
+                   .finish_end = end_base,
+                   .first = {SCENE_COPY_PLAIN, SEEN_IN_MIRRORS, false},
+                   .second = {SCENE_COPY_BASE_SECOND, MIRRORS, false}},
+    [PASS_SPECULAR] = {.name = "specular",
+                       .finish_end = end_mirror,
+                       .mirror_colour = mirror_white,
+                       .first = {SCENE_COPY_PLAIN, SEEN_IN_MIRRORS, false},
+                       .second = {SCENE_COPY_MIRROR_SECOND, MIRRORS, false}},
+    [PASS_REFLECTANCE] = {.name = "reflectance",
+                          .full_size = true,
+                          .finish_end = end_reflectance,
+                          .first = {SCENE_COPY_REFLECTANCE, MIRRORS, false},
+                          .second = {-1, NULL, false},
+                          .trailer = sky_half},
+    [PASS_POSITION] = {.name = "position",
+                       .codes = true,
+                       .technical = true,
+                       .digits = POSITION_DIGITS_HIGH,
+                       .first = {SCENE_COPY_CODED, "", true},
+                       .second = {-1, NULL, false}},
+    [PASS_POSITION_LOW] = {.name = "position-low",
+                           .codes = true,
+                           .technical = true,
+                           .digits = POSITION_DIGITS_LOW,
+                           .first = {SCENE_COPY_CODED, "", true},
+                           .second = {-1, NULL, false}},
+    [PASS_ENDPOINT] = {.name = "endpoint",
+                       .codes = true,
+                       .technical = true,
+                       .digits = POSITION_DIGITS_HIGH,
+                       .finish_end = end_mirror,
+                       .mirror_colour = mirror_white,
+                       .first = {SCENE_COPY_CODED, SEEN_IN_MIRRORS, true},
+                       .second = {SCENE_COPY_MIRROR_SECOND, MIRRORS, false},
+                       .coded_sky = true},
+    [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
+                           .codes = true,
+                           .technical = true,
+                           .digits = POSITION_DIGITS_LOW,
+                           .finish_end = end_mirror,
+                           .mirror_colour = mirror_white,
+                           .first = {SCENE_COPY_CODED, SEEN_IN_MIRRORS, true},
+                           .second = {SCENE_COPY_MIRROR_SECOND, MIRRORS, false},
+                           .coded_sky = true},
+    [PASS_DIRECTION] = {.name = "direction",
+                        .codes = true,
+                        .technical = true,
+                        .digits = POSITION_DIGITS_HIGH,
+                        .first = {SCENE_COPY_CODED, SEEN_IN_MIRRORS, false},
+                        .second = {-1, NULL, false},
+                        .coded_sky = true},
+    [PASS_EXPONENT] = {.name = "exponent",
+                       .codes = true,
+                       .technical = true,
+                       .finish_end = end_mirror,
+                       .mirror_colour = mirror_exponent,
+                       .first = {SCENE_COPY_MIRROR, MIRRORS, false},
+                       .second = {-1, NULL, false},
+                       .trailer = sky_white},
+};
+
+/* What a copy with marked finishes refers to. */
+static enum result add_macros(const struct pass *pass, struct buffer *text, struct error *err)
+{
+    enum result result = buffer_add_text(
+        text,
+        "#macro povgloss_dark() ambient 0 emission 0 diffuse 0 specular 0 phong 0 #end\n"
+        "#macro povgloss_begin(povgloss_of)\n"
+        "  #declare povgloss_inherited = povgloss_of; #declare povgloss_reflects = 0; #declare povgloss_phong = -1;\n"
+        "#end\n"
+        "#declare povgloss_pigment = pigment { rgb 0 };\n"
+        "#declare povgloss_reflects = 0; #declare povgloss_texture = -1; #declare povgloss_last = -1;\n",
+        err);
+    if (!result && pass->mirror_colour)
+        result = buffer_printf(text, err, "#macro povgloss_mirror_colour() %s #end\n", pass->mirror_colour);
+    if (!result)
+        result = buffer_printf(text, err, "#macro povgloss_end()\n"
+                               "  #if (povgloss_phong < 0) #declare povgloss_phong = povgloss_inherited; #end\n"
+                               "  #declare povgloss_last = povgloss_phong;\n"
+                               "  %s\n#end\n",
+                               pass->finish_end);
+    if (!result && pass->finish_end != end_base)
+        result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { povgloss_dark() } }\n", err);
+    return result;
+}
+
+static enum result add_coding_texture(const struct pass *pass, struct buffer *text, struct error *err)
+{
+    enum result result = buffer_add_text(text, "texture { ", err);
+    if (!result)
+        result = position_code_pigment(text, false, pass->digits, err);
+    return result ? result : buffer_add_text(text, "finish { emission 1 ambient 0 diffuse 0 specular 0 phong 0 } }\n", err);
+}
+
+static enum result add_part(const struct scene *scene, const struct pass *pass, const struct scene_part *part,
+                            struct buffer *text, struct error *err)
+{
+    bool marked = part->copy != SCENE_COPY_PLAIN && part->copy != SCENE_COPY_CODED;
+    enum result result = marked ? add_macros(pass, text, err) : RESULT_OK;
+    char *name = NULL;
+    if (!result)
+        result = scene_copy_name(scene, (enum scene_copy)part->copy, 0, &name, err);
+    if (!result && part->copy == SCENE_COPY_BASE) {
+        result = buffer_printf(text, err, "#include \"%s\"\n", name);
+        free(name);
+        return result;
+    }
+    if (!result)
+        result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s\n", part->modifiers);
+    if (!result && part->coded)
+        result = add_coding_texture(pass, text, err);
+    if (!result)
+        result = buffer_printf(text, err,
+                               "#end\nunion { povgloss_nothing()\n#include \"%s\"\npovgloss_modifiers() }\n"
+                               "#undef povgloss_modifiers\n",
+                               name);
+    free(name);
+    return result;
+}
+
+/* Between two copies: neither names nor defaults of the first one hold for the second. */
+static enum result add_separation(const struct scene *scene, struct buffer *text, struct error *err)
+{
+    enum result result = scene_restore_names(scene, text, err);
+    if (result)
+        return result;
+    return buffer_add_text(text,
+                           "#default { pigment { rgb 0 } finish { ambient 0.1 diffuse 0.6 emission 0 specular 0 phong 0 "
+                           "reflection { 0 } } }\n",
+                           err);
+}
+
+static enum result add_coded_sky(const struct pass *pass, struct buffer *text, struct error *err)
+{
+    enum result result = buffer_add_text(text, "sky_sphere { ", err);
+    if (!result)
+        result = position_code_pigment(text, true, pass->digits, err);
+    return result ? result : buffer_add_text(text, "}\n", err);
+}
+
+/* The base pass needs its second copy only where a mirror may show a glossy surface. */
+static bool has_second_part(const struct scene *scene, enum pass_id id)
+{
+    return pass_table[id].second.copy >= 0 && (id != PASS_BASE || scene->plain_mirrors);
+}
+
+static struct scene_part first_part(const struct scene *scene, enum pass_id id)
+{
+    struct scene_part part = pass_table[id].first;
+    if (id == PASS_BASE && !has_second_part(scene, id))
+        part.copy = SCENE_COPY_BASE;
+    return part;
+}
+
+enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text, struct error *err)
+{
+    const struct pass *pass = &pass_table[id];
+    struct scene_part first = first_part(scene, id);
+    enum result result = RESULT_OK;
+    if (scene->version > 0)
+        result = buffer_printf(text, err, "#version %.9g;\n", scene->version);
+    if (!result && pass->technical)
+        result = buffer_add_text(text, "global_settings { assumed_gamma 1.0 }\n", err);
+    if (!result)
+        result = buffer_add_text(
+            text, "#macro povgloss_nothing() sphere { 0, 1e-6 no_image no_reflection no_shadow no_radiosity } #end\n", err);
+    /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
+    if (!result)
+        result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass->full_size ? "" : "aperture 0");
+    if (!result)
+        result = scene_save_names(scene, text, err);
+    if (!result)
+        result = add_part(scene, pass, &first, text, err);
+    if (!result && has_second_part(scene, id)) {
+        result = add_separation(scene, text, err);
+        if (!result)
+            result = add_part(scene, pass, &pass->second, text, err);
+    }
+    if (!result && pass->coded_sky)
+        result = add_coded_sky(pass, text, err);
+    if (!result && pass->trailer)
+        result = buffer_add_text(text, pass->trailer, err);
+    if (!result && pass->technical)
+        result = buffer_add_text(text, "global_settings { max_trace_level 3 adc_bailout 1/255 }\n", err);
+    return result;
+}
+
+void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])
+{
+    needed[first_part(scene, id).copy] = true;
+    if (has_second_part(scene, id))
+        needed[pass_table[id].second.copy] = true;
+}

@@ -1,0 +1,54 @@
+/* The scene of every pass: one table says which copies of the user's scene it holds and how it is rendered.
+ *
+ * A pass is one or two copies (scene_rewrite.h), each in a union whose flags say which rays see it; what each pass is for
+ * stands in passes.h.
+ */
+#ifndef POVGLOSS_PASS_SCENE_H
+#define POVGLOSS_PASS_SCENE_H
+
+#include "position_code.h"
+#include "scene_rewrite.h"
+
+enum pass_id {
+    PASS_BASE,
+    PASS_SPECULAR,
+    PASS_REFLECTANCE,
+    PASS_POSITION,
+    PASS_POSITION_LOW,
+    PASS_ENDPOINT,
+    PASS_ENDPOINT_LOW,
+    PASS_DIRECTION,
+    PASS_EXPONENT,
+    PASS_COUNT,
+};
+
+/* A copy of the scene in a union. */
+struct scene_part {
+    int copy; /* enum scene_copy, or -1 */
+    const char *modifiers;
+    bool coded; /* the position-coding texture on the union */
+};
+
+struct pass {
+    const char *name;
+    bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
+    bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
+    bool technical; /* colours are numbers: linear, without media or radiosity */
+    enum position_digits digits;
+    const char *finish_end;    /* what povgloss_end puts last into every finish of a marked copy */
+    const char *mirror_colour; /* reflectivity of its glossy finishes */
+    struct scene_part first, second;
+    bool coded_sky;      /* mirrored rays that miss find their direction's code */
+    const char *trailer; /* statements after the copies */
+};
+
+extern const struct pass pass_table[PASS_COUNT];
+
+/* Marks the kinds of copies that the pass includes. */
+void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT]);
+
+/* Appends the pass's scene, which includes the copies' main files by their names. */
+MUST_CHECK enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text,
+                                       struct error *err);
+
+#endif
