@@ -5,6 +5,7 @@
  */
 #include "cli.h"
 
+#include "compose.h"
 #include "lobe.h"
 
 #include <ctype.h>
@@ -299,8 +300,8 @@ enum result cli_check_output(const char *path, const struct cli_filter *options,
     return RESULT_OK;
 }
 
-enum result cli_write(const char *path, const struct cli_filter *options, const struct image *image,
-                      const struct image *glossy, const struct image *radius, struct error *err)
+static enum result write_picture(const char *path, const struct cli_filter *options, const struct image *image,
+                                 const struct image *glossy, const struct image *radius, struct error *err)
 {
     enum image_format format;
     enum result result = image_format_choose(path, options->format, &format, err);
@@ -310,6 +311,21 @@ enum result cli_write(const char *path, const struct cli_filter *options, const 
         {"glossy.R", glossy, 0}, {"glossy.G", glossy, 1}, {"glossy.B", glossy, 2}, {"radius.V", radius, 0}};
     int count = options->layers ? (int)(sizeof layers / sizeof *layers) : 0;
     return image_write(path, format, options->bits, image, count > 0 ? layers : NULL, count, err);
+}
+
+enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
+                     struct error *err)
+{
+    struct image glossy = {0}, radius = {0}, image = {0};
+    enum result result = filter_glossy(gbuffer, &options->filter, &glossy, &radius, err);
+    if (result == RESULT_OK)
+        result = compose(gbuffer, &glossy, &image, err);
+    if (result == RESULT_OK)
+        result = write_picture(path, options, &image, &glossy, &radius, err);
+    image_free(&glossy);
+    image_free(&radius);
+    image_free(&image);
+    return result;
 }
 
 /* One argument that begins with "-". */

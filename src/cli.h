@@ -44,11 +44,11 @@ MUST_CHECK enum result cli_number(const char *option, const char *text, double l
 MUST_CHECK enum result cli_integer(const char *option, const char *text, int low, int high, int *value,
                                    struct error *err);
 
-/* Writes image and, with --layers, glossy.R/.G/.B and radius.V. */
-MUST_CHECK enum result cli_write(const char *path, const struct cli_filter *options, const struct image *image,
-                                 const struct image *glossy, const struct image *radius, struct error *err);
+/* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and radius.V. */
+MUST_CHECK enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
+                                struct error *err);
 
-/* Refuses a path and options that cli_write would refuse, before the work and not after it. */
+/* Refuses a path and options that cli_draw would refuse, before the work and not after it. */
 MUST_CHECK enum result cli_check_output(const char *path, const struct cli_filter *options, struct error *err);
 
 /* The command line of glossfilter. */

@@ -1,9 +1,8 @@
 /* glossfilter: glossy reflections from the passes of any renderer.
  *
- * Four steps: read the passes, filter, compose, write.
+ * It reads them and leaves the rest (filter, compose, write) to what povgloss render calls, too.
  */
 #include "cli.h"
-#include "compose.h"
 #include "interrupt.h"
 #include "passes_file.h"
 
@@ -33,30 +32,9 @@ static const char help_end[] =
 static enum result run(const struct cli_glossfilter *command, struct error *err)
 {
     struct gbuffer gbuffer = {0};
-    struct image glossy = {0}, radius = {0}, image = {0};
-
-    /* read */
     enum result result = passes_file_read(command->input, &gbuffer, err);
-    if (result != RESULT_OK)
-        goto out;
-
-    /* filter */
-    result = filter_glossy(&gbuffer, &command->options.filter, &glossy, &radius, err);
-    if (result != RESULT_OK)
-        goto out;
-
-    /* compose */
-    result = compose(&gbuffer, &glossy, &image, err);
-    if (result != RESULT_OK)
-        goto out;
-
-    /* write */
-    result = cli_write(command->output, &command->options, &image, &glossy, &radius, err);
-
-out:
-    image_free(&image);
-    image_free(&radius);
-    image_free(&glossy);
+    if (result == RESULT_OK)
+        result = cli_draw(command->output, &command->options, &gbuffer, err);
     gbuffer_free(&gbuffer);
     return result;
 }

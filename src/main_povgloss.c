@@ -3,7 +3,6 @@
  * The command line mixes POV-Ray's switches, which are passed through, with options of two hyphens.
  */
 #include "cli.h"
-#include "compose.h"
 #include "interrupt.h"
 #include "output_file.h"
 #include "passes.h"
@@ -199,20 +198,6 @@ static void no_progress(void *context, double done)
     (void)done;
 }
 
-static enum result draw(const struct command *command, const struct gbuffer *gbuffer, struct error *err)
-{
-    struct image glossy = {0}, radius = {0}, image = {0};
-    enum result result = filter_glossy(gbuffer, &command->filter.filter, &glossy, &radius, err);
-    if (!result)
-        result = compose(gbuffer, &glossy, &image, err);
-    if (!result)
-        result = cli_write(command->output, &command->filter, &image, &glossy, &radius, err);
-    image_free(&glossy);
-    image_free(&radius);
-    image_free(&image);
-    return result;
-}
-
 /* A file that can't be made is told before the passes are rendered. Devices and pipes are opened only when they are
  * written. */
 static enum result check_place(const char *path, struct error *err)
@@ -262,7 +247,7 @@ static enum result run(struct command *command, const struct povray_switches *sw
     if (!result && command->passes_only)
         result = passes_file_write(command->output, &gbuffer, err);
     else if (!result)
-        result = draw(command, &gbuffer, err);
+        result = cli_draw(command->output, &command->filter, &gbuffer, err);
     gbuffer_free(&gbuffer);
     return result;
 }

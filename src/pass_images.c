@@ -24,7 +24,8 @@ static enum result read_codes(const struct pass_images *images, enum pass_id id,
     return result;
 }
 
-static enum result read_radiance(const struct pass_images *images, enum pass_id id, struct image *image, struct error *err)
+static enum result read_radiance(const struct pass_images *images, enum pass_id id, struct image *image,
+                                 struct error *err)
 {
     struct exr_contents contents = {0};
     char *path;
@@ -48,8 +49,8 @@ static enum result read_radiance(const struct pass_images *images, enum pass_id 
     return result;
 }
 
-static enum result read_coded(const struct pass_images *images, enum pass_id high_id, enum pass_id low_id, struct image *decoded,
-                              struct error *err)
+static enum result read_coded(const struct pass_images *images, enum pass_id high_id, enum pass_id low_id,
+                              struct image *decoded, struct error *err)
 {
     struct image high = {0}, low = {0};
     enum result result = read_codes(images, high_id, &high, err);
@@ -81,7 +82,8 @@ static float decode_exponent(double high, double low)
 }
 
 /* Codes of the exponents, where the scene has several; else an image of the positions' size. */
-static enum result read_exponents(const struct pass_images *images, struct gbuffer *gbuffer, struct image *codes, struct error *err)
+static enum result read_exponents(const struct pass_images *images, struct gbuffer *gbuffer, struct image *codes,
+                                  struct error *err)
 {
     if (images->scene->exponent < 0) {
         enum result result = read_codes(images, PASS_EXPONENT, codes, err);
@@ -145,8 +147,8 @@ static enum result drop_w(struct image *image, struct error *err)
 }
 
 /* The passes of full size are as large as the base, the others as its subsampling says. */
-static enum result check_sizes(const struct pass_images *images, const struct gbuffer *gbuffer, const struct image *directions,
-                               struct error *err)
+static enum result check_sizes(const struct pass_images *images, const struct gbuffer *gbuffer,
+                               const struct image *directions, struct error *err)
 {
     const struct {
         const struct image *image;
@@ -182,7 +184,8 @@ static void note_invisible(const struct gbuffer *gbuffer, const char *scene, str
               "%s: the camera sees no glossy surface: does the finish with Gloss() reflect, and is it used?", scene);
 }
 
-enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note, struct error *err)
+enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
+                             struct error *err)
 {
     struct image directions = {0}, codes = {0};
     enum result result = read_radiance(images, PASS_BASE, &gbuffer->base, err);

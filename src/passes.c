@@ -279,6 +279,25 @@ static enum result report_failure(const struct run *run, const struct povray_job
     return RESULT_POVRAY;
 }
 
+/* The environment with POVINI set to the .ini file that holds where povgloss was started (NULL: none). The caller frees the
+ * array and *variable, the only one of its strings that is new. */
+static enum result make_environment(const char *ini, char ***environment, char **variable, struct error *err)
+{
+    int count = 0, kept = 0;
+    while (environ[count])
+        count++;
+    *variable = NULL;
+    *environment = calloc((size_t)count + 2, sizeof **environment);
+    if (!*environment)
+        return error_memory(err, (double)count * sizeof **environment);
+    for (int i = 0; i < count; i++)
+        if (strncmp(environ[i], "POVINI=", 7))
+            (*environment)[kept++] = environ[i];
+    enum result result = ini ? text_printf(variable, err, "POVINI=%s", ini) : RESULT_OK;
+    (*environment)[kept] = *variable;
+    return result;
+}
+
 static enum result run_passes(struct run *run, const char *ini, struct error *err)
 {
     const struct passes_options *options = run->options;
@@ -291,19 +310,8 @@ static enum result run_passes(struct run *run, const char *ini, struct error *er
         run->jobs[i] = (struct povray_job){
             .name = pass_table[run->ids[i]].name, .folder = folders[i], .arguments = arguments[i]};
     }
-    int variables = 0;
-    while (environ[variables])
-        variables++;
-    if (!result && !(environment = calloc((size_t)variables + 2, sizeof *environment)))
-        result = error_memory(err, variables);
-    if (!result && ini)
-        result = text_printf(&variable, err, "POVINI=%s", ini);
-    int kept = 0;
-    for (int i = 0; !result && i < variables; i++)
-        if (strncmp(environ[i], "POVINI=", 7))
-            environment[kept++] = environ[i];
     if (!result)
-        environment[kept] = variable;
+        result = make_environment(ini, &environment, &variable, err);
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     if (!result)
         result = povray_run(run->jobs, run->job_count, at_once, environment, options->progress,
@@ -320,6 +328,7 @@ static enum result run_passes(struct run *run, const char *ini, struct error *er
     free(variable);
     return result;
 }
+
 static enum result check_scene(const struct run *run, struct error *note, struct error *err)
 {
     const struct scene *scene = &run->scene;

@@ -168,12 +168,12 @@ static bool is_plain_mirror(const struct scene_file *file, int token)
     bool zero = file->list.tokens[token + 1].kind == TOKEN_NUMBER && number_value(file, token + 1) == 0;
     if (brace <= 0 || !is_word(file, brace - 1, "finish") || file->list.tokens[brace].match < 0)
         return !zero;
-    bool gloss = false; /* and not only under some condition */
-    for (int i = brace; i < file->list.tokens[brace].match; i++)
+    bool gloss = false, conditional = false;
+    for (int i = brace; i < file->list.tokens[brace].match; i++) {
         gloss |= is_word(file, i, "Gloss") || is_word(file, i, "Gloss_Roughness");
-    for (int i = brace; i < file->list.tokens[brace].match; i++)
-        gloss &= file->list.tokens[i].kind != TOKEN_DIRECTIVE;
-    return !zero && !gloss;
+        conditional |= file->list.tokens[i].kind == TOKEN_DIRECTIVE;
+    }
+    return !zero && (!gloss || conditional);
 }
 
 /* The first assumed_gamma of a scene is the one that POV-Ray takes. */
@@ -200,11 +200,6 @@ static enum result note_gamma(struct scene *scene, const struct scene_file *file
 static enum result load_file(struct scene *scene, char *path, const char *const *directories, int directory_count,
                              struct error *err);
 
-static bool readable(const char *path)
-{
-    return access(path, R_OK) == 0;
-}
-
 /* The path of an include file, which the caller frees; *path is NULL when it isn't in any of the directories. */
 static enum result find_include(const char *name, const char *const *directories, int directory_count, char **path,
                                 struct error *err)
@@ -213,7 +208,7 @@ static enum result find_include(const char *name, const char *const *directories
     for (int i = 0; i < directory_count; i++) {
         enum result result = name[0] == '/' ? text_printf(path, err, "%s", name)
                                             : text_printf(path, err, "%s/%s", directories[i], name);
-        if (result || readable(*path))
+        if (result || access(*path, R_OK) == 0)
             return result;
         free(*path);
         *path = NULL;
@@ -300,10 +295,11 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
     if (!own && (is_word(file, token, "Gloss") || is_word(file, token, "Gloss_Roughness")) &&
         is_mark(file, token + 1, "(") && !is_directive(file, token - 1, "macro"))
         note_gloss(scene, file, token);
-    static const char *const atmospheres[] = {"fog", "rainbow", "media", NULL};
-    if (tokens[token].parent < 0 && opens_block(file, token) && in_list(file, token, atmospheres) &&
-        !is_mark(file, token - 1, "="))
-        scene->atmosphere = is_word(file, token, "fog") ? "fog" : is_word(file, token, "media") ? "media" : "rainbow";
+    static const char *const atmospheres[] = {"fog", "rainbow", "media"};
+    for (size_t i = 0; i < sizeof atmospheres / sizeof *atmospheres; i++)
+        if (is_word(file, token, atmospheres[i]) && tokens[token].parent < 0 && opens_block(file, token) &&
+            !is_mark(file, token - 1, "="))
+            scene->atmosphere = atmospheres[i];
     return RESULT_OK;
 }
 
@@ -459,16 +455,16 @@ static bool has_effects(const struct writer *writer, int first, int last)
     return false;
 }
 
-/* Puts `text` in place of the block `keyword { ... }` from `token` to `last`. One with effects is declared in front of it,
- * as a `type`, so that every copy of the scene draws the same random numbers. */
-static enum result replace_block(struct writer *writer, int token, int last, const char *type, const char *text,
-                                 struct error *err)
+/* Puts `text` in place of the block `keyword { ... }` from `token` to `last`. One with effects is declared in front of it
+ * (an interior_texture as a texture), so that every copy of the scene draws the same random numbers. */
+static enum result replace_block(struct writer *writer, int token, int last, const char *text, struct error *err)
 {
     if (!has_effects(writer, token + 1, last))
         return replace(writer, token, last, text, err);
     enum result result = insert_before(writer, token, "#declare povgloss_dropped = ", err);
     if (!result)
-        result = replace(writer, token, token, type, err);
+        result = is_word(writer->file, token, "interior_texture") ? replace(writer, token, token, "texture", err)
+                                                                  : RESULT_OK;
     if (!result)
         result = insert_after(writer, last, "; ", err);
     return result ? result : buffer_add_text(&writer->out, text, err);
@@ -619,7 +615,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         return result;
     }
     if (rules->pigments && !value && is_word(file, token, "pigment") && !inside(file, token, "function"))
-        return replace_block(writer, token, last, "pigment", "pigment { povgloss_pigment }", err);
+        return replace_block(writer, token, last, "pigment { povgloss_pigment }", err);
     if (rules->coded && is_word(file, token, "texture_list"))
         return error_set(err, RESULT_DATA,
                          "%s:%d: a mesh2 with a texture_list can't be taken yet: split it into one mesh for each texture",
@@ -628,13 +624,9 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         if (value || filling)
             return copy_to(writer, file->list.tokens[last].end, err);
         int parent = file->list.tokens[token].parent;
-        const char *kind = "texture";
-        for (int i = 0; texture_words[i]; i++)
-            if (is_word(file, token, texture_words[i]) && strcmp(texture_words[i], "interior_texture"))
-                kind = texture_words[i];
         bool triangle =
             parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
-        return replace_block(writer, token, last, kind, triangle ? "" : "transform {}", err);
+        return replace_block(writer, token, last, triangle ? "" : "transform {}", err);
     }
     *next = 0;
     return RESULT_OK;
