@@ -23,6 +23,11 @@ static const char help[] =
     "POV-Ray's switches (+W640 +H480 +A0.3 +Ldir Declare=x=1 file.ini) go to POV-Ray as they are.\n"
     "\n"
     "Scene:\n"
+    "  --gloss NAME=P       make a declared texture, finish or material glossy, P being its Phong exponent\n"
+    "                       (inf: a mirror); may be given again; wins over the scene's Gloss()\n"
+    "  --gloss auto         every finish with a reflection and phong_size (P is the same) or roughness\n"
+    "                       (P is 1/(4 roughness), the lobe of POV-Ray's highlight)\n"
+    "  --gloss all=P        every finish that reflects, but for those above\n"
     "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
     "                       interpolate; needs +W and +H\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
@@ -69,10 +74,13 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
         {"--jobs", NULL, &command->passes.jobs, 0, 64},
         {"--subsample", NULL, &command->passes.subsample, 1, 4},
     };
-    *taken = false;
+    const char *value;
+    enum result result = cli_value(argc, argv, index, "--gloss", &value, err);
+    *taken = value;
+    if (result || value)
+        return result ? result : gloss_choice_take(&command->passes.gloss, value, err);
     for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
-        const char *value;
-        enum result result = cli_value(argc, argv, index, options[i].name, &value, err);
+        result = cli_value(argc, argv, index, options[i].name, &value, err);
         if (result)
             return result;
         if (!value)
@@ -254,7 +262,7 @@ static enum result run(struct command *command, const struct povray_switches *sw
 
 int main(int argc, char **argv)
 {
-    struct command command;
+    struct command command = {0};
     struct povray_switches switches = {0};
     struct error err;
     interrupt_install();
@@ -270,6 +278,7 @@ int main(int argc, char **argv)
     if (!result && (command.help || command.version) && (fflush(stdout) || ferror(stdout)))
         result = error_set(&err, RESULT_DATA, "standard output: cannot be written");
     povray_switches_free(&switches);
+    gloss_choice_free(&command.passes.gloss);
     if (result == RESULT_INTERRUPTED)
         interrupt_reraise();
     if (result)

@@ -184,13 +184,30 @@ static void note_invisible(const struct gbuffer *gbuffer, const char *scene, str
               "%s: the camera sees no glossy surface: does the finish with Gloss() reflect, and is it used?", scene);
 }
 
+/* Nothing is glossy: the base is all. */
+static enum result make_dull(struct gbuffer *gbuffer, struct error *err)
+{
+    const struct {
+        struct image *image;
+        int channels;
+    } planes[] = {
+        {&gbuffer->specular, 3}, {&gbuffer->reflectance, 3}, {&gbuffer->position, 3},
+        {&gbuffer->endpoint, 4}, {&gbuffer->phong, 1},
+    };
+    enum result result = RESULT_OK;
+    for (size_t i = 0; !result && i < sizeof planes / sizeof *planes; i++)
+        result = image_alloc(planes[i].image, gbuffer->base.width, gbuffer->base.height, planes[i].channels, err);
+    return result;
+}
+
 enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
                              struct error *err)
 {
     struct image directions = {0}, codes = {0};
     enum result result = read_radiance(images, PASS_BASE, &gbuffer->base, err);
-    if (!result)
-        result = read_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
+    if (result || !images->scene->glossy)
+        return result ? result : make_dull(gbuffer, err);
+    result = read_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
     if (!result)
         result = read_radiance(images, PASS_REFLECTANCE, &gbuffer->reflectance, err);
     if (!result)

@@ -1,11 +1,12 @@
 /* The table of the passes, and the wrapper that puts a pass's copies, macros, textures and skies into one scene. */
 #include "pass_scene.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* What povgloss_end puts last into every finish. Later items of a finish override earlier ones; povgloss_phong is 0 or more
- * when the finish called Gloss() or began with a glossy one, povgloss_reflects is 1 when it names a reflection of its own.
- * A finish without either keeps what it has. */
+ * when the finish is glossy, povgloss_reflects is 1 when it names a reflection of its own. A finish without either keeps
+ * what it has. */
 static const char end_base[] = "#if (povgloss_phong >= 0) reflection { 0 } #end";
 static const char end_mirror[] = "povgloss_dark()\n"
                                  "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
@@ -91,24 +92,52 @@ const struct pass pass_table[PASS_COUNT] = {
                        .trailer = sky_white},
 };
 
-/* What a copy with marked finishes refers to. */
-static enum result add_macros(const struct pass *pass, struct buffer *text, struct error *err)
+/* What a copy with marked finishes refers to. The state of a finish is a vector: x the exponent of its Gloss() or of the
+ * user's choice for the name that is being declared, or -1; y whether it reflects; z the exponent of its highlight's lobe, or
+ * -1. POV-Ray's specular highlight is a power 1/roughness of the cosine about the half vector, whose angle is half of that
+ * from the mirror direction: an exponent of 1/(4 roughness) there. phong_size is an exponent about the mirror direction. */
+static enum result add_macros(const struct scene *scene, const struct pass *pass, struct buffer *text, struct error *err)
 {
+    const struct gloss_choice *choice = scene->choice;
     enum result result = buffer_add_text(
         text,
         "#macro povgloss_dark() ambient 0 emission 0 diffuse 0 specular 0 phong 0 #end\n"
-        "#macro povgloss_begin(povgloss_of)\n"
-        "  #declare povgloss_inherited = povgloss_of; #declare povgloss_reflects = 0; #declare povgloss_phong = -1;\n"
-        "#end\n"
         "#declare povgloss_pigment = pigment { rgb 0 };\n"
-        "#declare povgloss_reflects = 0; #declare povgloss_texture = -1; #declare povgloss_last = -1;\n",
+        "#declare povgloss_none = <-1, 0, -1>;\n"
+        "#declare povgloss_state = povgloss_none; #declare povgloss_texture = povgloss_none;\n"
+        "#declare povgloss_last = povgloss_none; #declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
+        "#macro povgloss_begin(povgloss_of)\n"
+        "  #declare povgloss_state = povgloss_of; #declare povgloss_reflects = 0; #declare povgloss_phong = -1;\n"
+        "#end\n"
+        "#macro povgloss_reflection(povgloss_y)\n"
+        "  #declare povgloss_reflects = 1; #declare povgloss_state = <povgloss_state.x, povgloss_y, povgloss_state.z>;\n"
+        "#end\n"
+        "#macro povgloss_phong_size()\n"
+        "  #declare povgloss_state = <povgloss_state.x, povgloss_state.y, povgloss_size>; phong_size povgloss_size\n"
+        "#end\n"
+        "#macro povgloss_roughness()\n"
+        "  #declare povgloss_state = <povgloss_state.x, povgloss_state.y, 1/(4*max(povgloss_size, 1e-9))>;\n"
+        "  roughness povgloss_size\n"
+        "#end\n",
         err);
+    if (!result)
+        result = buffer_printf(text, err,
+                               "#declare povgloss_all = %.9g;\n"
+                               "#macro povgloss_exponent(povgloss_s)\n"
+                               "  (povgloss_s.x >= 0 | povgloss_s.y <= 0 ? povgloss_s.x : %s)\n"
+                               "#end\n",
+                               choice->all ? fmin(choice->all_exponent, 1e30) : -1,
+                               choice->automatic ? "(povgloss_s.z >= 0 ? povgloss_s.z : povgloss_all)" : "povgloss_all");
     if (!result && pass->mirror_colour)
         result = buffer_printf(text, err, "#macro povgloss_mirror_colour() %s #end\n", pass->mirror_colour);
     if (!result)
         result = buffer_printf(text, err, "#macro povgloss_end()\n"
-                               "  #if (povgloss_phong < 0) #declare povgloss_phong = povgloss_inherited; #end\n"
-                               "  #declare povgloss_last = povgloss_phong;\n"
+                               "  #if (povgloss_given >= 0) #declare povgloss_phong = povgloss_given; #end\n"
+                               "  #if (povgloss_phong >= 0)\n"
+                               "    #declare povgloss_state = <povgloss_phong, povgloss_state.y, povgloss_state.z>;\n"
+                               "  #end\n"
+                               "  #declare povgloss_last = povgloss_state;\n"
+                               "  #declare povgloss_phong = povgloss_exponent(povgloss_state);\n"
                                "  %s\n#end\n",
                                pass->finish_end);
     if (!result && pass->finish_end != end_base)
@@ -128,7 +157,7 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
                             struct buffer *text, struct error *err)
 {
     bool marked = part->copy != SCENE_COPY_PLAIN && part->copy != SCENE_COPY_CODED;
-    enum result result = marked ? add_macros(pass, text, err) : RESULT_OK;
+    enum result result = marked ? add_macros(scene, pass, text, err) : RESULT_OK;
     char *name = NULL;
     if (!result)
         result = scene_copy_name(scene, (enum scene_copy)part->copy, 0, &name, err);
@@ -173,7 +202,7 @@ static enum result add_coded_sky(const struct pass *pass, struct buffer *text, s
 /* The base pass needs its second copy only where a mirror may show a glossy surface. */
 static bool has_second_part(const struct scene *scene, enum pass_id id)
 {
-    return pass_table[id].second.copy >= 0 && (id != PASS_BASE || scene->plain_mirrors);
+    return pass_table[id].second.copy >= 0 && (id != PASS_BASE || (scene->glossy && scene->plain_mirrors));
 }
 
 static struct scene_part first_part(const struct scene *scene, enum pass_id id)

@@ -48,7 +48,7 @@ static enum result write_scenes(struct run *run, struct error *err)
     bool needed[SCENE_COPY_COUNT] = {false}, several = run->scene.exponent < 0;
     enum result result = work_folder_add(&run->folder, "copies", err);
     for (int id = 0; !result && id < PASS_COUNT; id++) {
-        if (id == PASS_EXPONENT && !several)
+        if ((id == PASS_EXPONENT && !several) || (id != PASS_BASE && !run->scene.glossy))
             continue;
         run->ids[run->job_count++] = (enum pass_id)id;
         pass_copies(&run->scene, (enum pass_id)id, needed);
@@ -332,11 +332,15 @@ static enum result run_passes(struct run *run, const char *ini, struct error *er
 static enum result check_scene(const struct run *run, struct error *note, struct error *err)
 {
     const struct scene *scene = &run->scene;
-    if (scene->gloss_calls == 0)
+    bool chosen = scene->choice->automatic || scene->choice->all;
+    if (!scene->glossy && !chosen)
         return error_set(err, RESULT_DATA,
                          "%s: nothing in this scene is glossy: write #include \"povgloss.inc\", and Gloss(300) in a finish "
-                         "that has a reflection",
+                         "that has a reflection, or choose finishes with --gloss",
                          run->options->scene);
+    if (!scene->glossy)
+        error_set(note, RESULT_OK, "%s: no finish is glossy with this --gloss: the picture is POV-Ray's own",
+                  run->options->scene);
     if (scene->atmosphere)
         error_set(note, RESULT_OK,
                   "%s: the scene's %s between the eye and a glossy surface is also seen in its reflection; the picture "
@@ -359,7 +363,7 @@ enum result passes_render(const struct passes_options *options, struct gbuffer *
     if (!result)
         result = find_directories(&run, ini, err);
     if (!result)
-        result = scene_load(&run.scene, options->scene, (const char *const *)run.directories, run.directory_count, err);
+        result = scene_load(&run.scene, options->scene, &options->gloss, (const char *const *)run.directories, run.directory_count, err);
     if (!result)
         result = check_scene(&run, note, err);
     if (!result)

@@ -14,11 +14,13 @@
 
 #include "gbuffer.h"
 #include "povray.h"
+#include "scene_rewrite.h"
 
 struct passes_options {
     const char *scene;             /* path of the .pov file */
     const char *povray;            /* the program: "povray" is looked up in PATH */
     const char *keep;              /* folder for the rewritten scenes and raw images, which stays; NULL: none */
+    struct gloss_choice gloss;     /* finishes to make glossy */
     const char *const *switches;   /* POV-Ray's own, passed through in their order */
     int switch_count;
     const char *const *libraries;  /* the user's +L folders, in their order */

@@ -13,6 +13,7 @@
 
 #include <assert.h>
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -91,6 +92,14 @@ static int block_keyword(const struct scene_file *file, int brace)
     return token;
 }
 
+static bool mentions(const struct scene_file *file, int first, int end, const char *const *words)
+{
+    for (int token = first; token < end; token++)
+        if (in_list(file, token, words))
+            return true;
+    return false;
+}
+
 /* Whether the token lies in the braces that fill an array, where POV-Ray takes no directive and no macro. */
 static bool fills_array(const struct scene_file *file, int token)
 {
@@ -144,6 +153,16 @@ static enum result add_name(struct buffer *names, const struct scene_file *file,
     return result ? result : buffer_add(names, "", 1, err);
 }
 
+/* Notes that something is glossy with this exponent; negative: it is known to POV-Ray only. */
+static void note_exponent(struct scene *scene, double exponent)
+{
+    if (!scene->glossy)
+        scene->exponent = exponent;
+    else if (scene->exponent != exponent)
+        scene->exponent = -1;
+    scene->glossy = true;
+}
+
 /* Notes one call Gloss(p) or Gloss_Roughness(r) whose name is at `token`. */
 static void note_gloss(struct scene *scene, const struct scene_file *file, int token)
 {
@@ -153,10 +172,16 @@ static void note_gloss(struct scene *scene, const struct scene_file *file, int t
         if (is_word(file, token, "Gloss_Roughness"))
             exponent = lobe_phong_from_roughness(exponent);
     }
-    if (scene->gloss_calls++ == 0)
-        scene->exponent = exponent;
-    else if (scene->exponent != exponent)
-        scene->exponent = -1;
+    note_exponent(scene, exponent);
+}
+
+static bool is_zero(const struct scene_file *file, int token)
+{
+    static const char *const operators[] = {"+", "-", "*", "/", NULL};
+    bool zero = file->list.tokens[token].kind == TOKEN_NUMBER && number_value(file, token) == 0;
+    for (int i = 0; zero && operators[i]; i++)
+        zero = !is_mark(file, token + 1, operators[i]);
+    return zero;
 }
 
 /* A `reflection` makes a plain mirror unless its finish is glossy or it is the number 0. */
@@ -165,7 +190,7 @@ static bool is_plain_mirror(const struct scene_file *file, int token)
     int brace = file->list.tokens[token].parent;
     if (brace > 0 && is_word(file, block_keyword(file, brace), "photons"))
         return false;
-    bool zero = file->list.tokens[token + 1].kind == TOKEN_NUMBER && number_value(file, token + 1) == 0;
+    bool zero = is_zero(file, token + 1);
     if (brace <= 0 || !is_word(file, brace - 1, "finish") || file->list.tokens[brace].match < 0)
         return !zero;
     bool gloss = false, conditional = false;
@@ -269,6 +294,12 @@ static bool is_layered(const struct scene_file *file, int name)
            is_word(file, file->list.tokens[name + 3].match + 1, "texture");
 }
 
+/* What may follow the = of a name that can be made glossy. */
+static const char *const glossy_words[] = {"finish", "texture", "material", NULL};
+
+/* The items of a finish whose values are the lobe of a highlight. */
+static const char *const highlight_words[] = {"phong_size", "roughness", NULL};
+
 static enum result note_token(struct scene *scene, int index, int token, struct error *err)
 {
     const struct scene_file *file = &scene->files[index];
@@ -283,10 +314,14 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
             result = add_name(&scene->arrays, file, token + 1, err);
         if (!result && is_layered(file, token + 1))
             result = add_name(&scene->layered, file, token + 1, err);
+        if (!result && is_mark(file, token + 2, "=") && in_list(file, token + 3, glossy_words))
+            result = add_name(&scene->glossable, file, token + 1, err);
         return result;
     }
     if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
         scene->plain_mirrors = true;
+    if (in_list(file, token, highlight_words))
+        scene->highlights = true;
     if (is_word(file, token, "aperture"))
         scene->focal_blur = true;
     if (is_word(file, token, "assumed_gamma"))
@@ -334,10 +369,36 @@ static enum result load_file(struct scene *scene, char *path, const char *const 
     return result;
 }
 
-enum result scene_load(struct scene *scene, const char *path, const char *const *directories, int directory_count,
-                       struct error *err)
+static bool has_name(const struct buffer *names, const char *name)
 {
-    *scene = (struct scene){.exponent = -1};
+    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1)
+        if (!strcmp(names->data + at, name))
+            return true;
+    return false;
+}
+
+/* Notes what the user chose to be glossy. */
+static enum result note_choice(struct scene *scene, const struct gloss_choice *choice, struct error *err)
+{
+    for (int i = 0; i < choice->name_count; i++) {
+        if (!has_name(&scene->glossable, choice->names[i].name))
+            return error_set(err, RESULT_DATA,
+                             "%s: no finish, texture or material is declared by the name %s: `povgloss list` shows those "
+                             "that reflect",
+                             scene->files[0].path, choice->names[i].name);
+        note_exponent(scene, choice->names[i].exponent);
+    }
+    if (scene->plain_mirrors && choice->all)
+        note_exponent(scene, choice->all_exponent);
+    if (scene->plain_mirrors && choice->automatic && scene->highlights)
+        note_exponent(scene, -1);
+    return RESULT_OK;
+}
+
+enum result scene_load(struct scene *scene, const char *path, const struct gloss_choice *choice,
+                       const char *const *directories, int directory_count, struct error *err)
+{
+    *scene = (struct scene){.choice = choice, .exponent = -1};
     char *copy = strdup(path);
     if (!copy)
         return error_memory(err, (double)strlen(path));
@@ -349,7 +410,7 @@ enum result scene_load(struct scene *scene, const char *path, const char *const 
         scene->version = number_value(main_file, 1);
     if (scene->working_gamma == 0)
         scene->working_gamma = scene->version >= 3.7 ? 1 : GBUFFER_GAMMA_SRGB;
-    return RESULT_OK;
+    return note_choice(scene, choice, err);
 }
 
 void scene_free(struct scene *scene)
@@ -365,6 +426,7 @@ void scene_free(struct scene *scene)
     buffer_free(&scene->lights);
     buffer_free(&scene->arrays);
     buffer_free(&scene->layered);
+    buffer_free(&scene->glossable);
     *scene = (struct scene){0};
 }
 
@@ -378,6 +440,7 @@ struct writer {
     size_t at;       /* the source up to here is written */
     int value_name;  /* the name in the last #declare of a block */
     int value_end;   /* the token after that block: a texture there is a further layer */
+    bool given;      /* in the declaration of a name that the user chose to be glossy */
     bool in_macro;
     int conditions;  /* depth of #if, #while, #for, #switch, #macro; which of them are macros */
     bool is_macro[MAX_CONDITIONS];
@@ -489,7 +552,7 @@ static enum result write_statement(struct writer *writer, int token, int last, s
     return result ? result : copy_to(writer, writer->file->list.tokens[last].end, err);
 }
 
-/* A finish or texture that begins with a declared name takes over whether that was glossy: the exponent is kept in a
+/* A finish or texture that begins with a declared name takes over that one's state (pass_scene.c), which is kept in a
  * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows). */
 static enum result inherit_gloss(struct writer *writer, int token, const char *variable, struct error *err)
 {
@@ -506,10 +569,10 @@ static enum result write_finish(struct writer *writer, int token, int last, stru
 {
     int brace = writer->file->list.tokens[token].parent;
     bool in_texture = brace > 0 && is_word(writer->file, brace - 1, "texture");
-    enum result result =
-        insert_after(writer, token + 1, in_texture ? " povgloss_begin(povgloss_texture) " : " povgloss_begin(-1) ", err);
+    enum result result = insert_after(
+        writer, token + 1, in_texture ? " povgloss_begin(povgloss_texture) " : " povgloss_begin(povgloss_none) ", err);
     if (!result)
-        result = inherit_gloss(writer, token + 2, "povgloss_inherited", err);
+        result = inherit_gloss(writer, token + 2, "povgloss_state", err);
     /* An element of a filled array comes unmarked. */
     if (!result && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
         result = buffer_add_text(&writer->out, " #declare povgloss_reflects = 1; ", err);
@@ -527,9 +590,12 @@ static bool is_layer(const struct scene_file *file, int token)
     return first > 0 && is_word(file, first - 1, "texture");
 }
 
+/* A texture with one of these takes no finish at its end, or needs none. */
+static const char *const finish_carriers[] = {"finish", "texture", "texture_map", "tiles", "material_map", NULL};
+
 static enum result write_texture(struct writer *writer, int token, int last, bool upper, struct error *err)
 {
-    enum result result = insert_after(writer, token + 1, " #declare povgloss_texture = -1;", err);
+    enum result result = insert_after(writer, token + 1, " #declare povgloss_texture = povgloss_none;", err);
     if (!result)
         result = inherit_gloss(writer, token + 2, "povgloss_texture", err);
     if (!result)
@@ -538,10 +604,12 @@ static enum result write_texture(struct writer *writer, int token, int last, boo
         result = write_tokens(writer, token + 2, last, err);
     if (!result && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
         result = insert_before(writer, last,
-                               " finish { povgloss_begin(-1) #declare povgloss_reflects = 1; povgloss_end() } ", err);
+                               " finish { povgloss_begin(povgloss_none) #declare povgloss_reflects = 1; povgloss_end() } ", err);
+    if (!result && writer->given && !mentions(writer->file, token + 2, last, finish_carriers))
+        result = insert_before(writer, last, " finish { povgloss_begin(povgloss_texture) povgloss_end() } ", err);
     /* Nothing shows through an opaque layer, but a layer that isn't glossy must not hide a glossy one below. */
     if (!result && upper && writer->rules->pigments && find_name(&writer->scene->layered, writer->file, token + 2) < 0)
-        result = insert_before(writer, last, " #if (povgloss_last < 0) pigment { rgbt 1 } #end ", err);
+        result = insert_before(writer, last, " #if (povgloss_exponent(povgloss_last) < 0) pigment { rgbt 1 } #end ", err);
     return result;
 }
 
@@ -583,6 +651,42 @@ static bool is_declared_light(const struct writer *writer, int token)
     return is_word(writer->file, token, "object") && find_name(&writer->scene->lights, writer->file, token + 2) >= 0;
 }
 
+/* What the user chose for the name at a token, or NULL. */
+static const struct gloss_name *find_choice(const struct writer *writer, int name)
+{
+    const struct gloss_choice *choice = writer->scene->choice;
+    for (int i = 0; name >= 0 && i < choice->name_count; i++)
+        if (is_word(writer->file, name, choice->names[i].name))
+            return &choice->names[i];
+    return NULL;
+}
+
+/* A finish, texture or material; `name` is that of its declaration, or -1. */
+static enum result write_marked(struct writer *writer, int token, int last, int name, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    const struct gloss_name *choice = find_choice(writer, name);
+    enum result result = RESULT_OK;
+    if (choice) {
+        writer->given = true;
+        result = insert_after(writer, token + 1, "", err);
+        if (!result)
+            result = buffer_printf(&writer->out, err, " #declare povgloss_given = %.9g;", fmin(choice->exponent, 1e30));
+    }
+    bool finish = is_word(file, token, "finish"), material = is_word(file, token, "material");
+    if (!result)
+        result = finish ? write_finish(writer, token, last, err)
+                 : material ? write_tokens(writer, token + 2, last, err)
+                            : write_texture(writer, token, last, is_layer(file, token), err);
+    if (!result && choice) {
+        writer->given = false;
+        result = insert_before(writer, last, " #declare povgloss_given = -1; ", err);
+    }
+    if (!result && name >= 0 && !material)
+        result = remember_gloss(writer, name, last, err);
+    return result ? result : copy_to(writer, file->list.tokens[last].end, err);
+}
+
 /* Writes the block `keyword { ... }` whose keyword is at `token` if it is changed by the rules; *next is then the token
  * after it, else 0. */
 static enum result write_block(struct writer *writer, int token, int *next, struct error *err)
@@ -606,14 +710,8 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         return write_light(writer, token, last, err);
     if (unlit && is_declared_light(writer, token))
         return replace(writer, token, last, "", err);
-    bool finish = is_word(file, token, "finish"), filling = fills_array(file, token);
-    if (rules->marks && !filling && (finish || is_word(file, token, "texture"))) {
-        enum result result = finish ? write_finish(writer, token, last, err)
-                                    : write_texture(writer, token, last, is_layer(file, token), err);
-        if (!result && value)
-            result = remember_gloss(writer, writer->value_name, last, err);
-        return result;
-    }
+    if (rules->marks && in_list(file, token, glossy_words) && !fills_array(file, token))
+        return write_marked(writer, token, last, value ? writer->value_name : -1, err);
     if (rules->pigments && !value && is_word(file, token, "pigment") && !inside(file, token, "function"))
         return replace_block(writer, token, last, "pigment { povgloss_pigment }", err);
     if (rules->coded && is_word(file, token, "texture_list"))
@@ -621,7 +719,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
                          "%s:%d: a mesh2 with a texture_list can't be taken yet: split it into one mesh for each texture",
                          file->path, file->list.tokens[token].line);
     if (rules->coded && in_list(file, token, texture_words)) {
-        if (value || filling)
+        if (value || fills_array(file, token))
             return copy_to(writer, file->list.tokens[last].end, err);
         int parent = file->list.tokens[token].parent;
         bool triangle =
@@ -705,6 +803,26 @@ static enum result write_opaque(struct writer *writer, int token, int *next, str
     return result;
 }
 
+/* What says how a finish reflects: noted for povgloss_end; with automatic gloss the lobe of the highlight, too. */
+static enum result write_finish_item(struct writer *writer, int token, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    if (is_word(file, token, "reflection"))
+        return insert_before(writer, token,
+                             is_zero(file, token + 1) ? "povgloss_reflection(0) " : "povgloss_reflection(1) ", err);
+    if (!writer->scene->choice->automatic || !in_list(file, token, highlight_words))
+        return RESULT_OK;
+    int end = value_end(file, token + 1);
+    if (end == token + 1)
+        return RESULT_OK;
+    *next = end;
+    enum result result = replace(writer, token, token, "#declare povgloss_size =", err);
+    if (!result)
+        result = insert_after(writer, end - 1, "; ", err);
+    bool roughness = is_word(file, token, "roughness");
+    return result ? result : buffer_add_text(&writer->out, roughness ? "povgloss_roughness()" : "povgloss_phong_size()", err);
+}
+
 static void track_directive(struct writer *writer, int token)
 {
     static const char *const openers[] = {"if", "ifdef", "ifndef", "while", "for", "switch", "macro", NULL};
@@ -751,8 +869,8 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
         } else if (file->list.tokens[i].kind == TOKEN_WORD) {
             if (opens_block(file, i))
                 result = write_block(writer, i, &next, err);
-            if (!result && !next && writer->rules->marks && is_word(file, i, "reflection") && !fills_array(file, i))
-                result = insert_before(writer, i, "#declare povgloss_reflects = 1; ", err);
+            if (!result && !next && writer->rules->marks && !fills_array(file, i))
+                result = write_finish_item(writer, i, &next, err);
             if (!result && !next && writer->rules->opaque)
                 result = write_opaque(writer, i, &next, err);
         }

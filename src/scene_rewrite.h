@@ -2,13 +2,14 @@
  *
  * A copy is the user's text with some blocks replaced, line by line where it was, so that a message of POV-Ray about a
  * copy names the line of the user's own file. What replaces them refers to names that the pass's wrapper declares
- * (passes.c): the macros povgloss_begin and povgloss_end around the items of every finish, povgloss_pigment,
+ * (pass_scene.c): the macros povgloss_begin and povgloss_end around the items of every finish, povgloss_pigment,
  * povgloss_modifiers (those of the union around), povgloss_nothing (an object, for unions that would be empty) and, where
  * a camera has an aperture, povgloss_camera at its end.
  */
 #ifndef POVGLOSS_SCENE_REWRITE_H
 #define POVGLOSS_SCENE_REWRITE_H
 
+#include "gloss_choice.h"
 #include "scene_lexer.h"
 
 struct scene_include {
@@ -25,15 +26,18 @@ struct scene_file {
 };
 
 struct scene {
+    const struct gloss_choice *choice;
     struct scene_file *files; /* the first one is the scene */
     int file_count;
     struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
     struct buffer lights;  /* in the same form: names that were declared as a light_source, */
     struct buffer arrays;  /* as an array filled in its declaration, */
-    struct buffer layered; /* as a texture of several layers */
-    int gloss_calls;       /* calls of Gloss or Gloss_Roughness outside povgloss.inc */
-    double exponent;       /* the one exponent of all these calls; negative: they differ, or aren't plain numbers */
-    bool plain_mirrors;    /* some finish may reflect without being glossy */
+    struct buffer layered; /* as a texture of several layers, */
+    struct buffer glossable; /* as a finish, texture or material */
+    bool glossy;           /* some finish may be glossy, by Gloss or Gloss_Roughness or by the user's choice */
+    double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
+    bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
+    bool highlights;       /* some finish names the size of a highlight */
     double version;        /* of a #version that opens the scene; 0: none */
     double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
     bool focal_blur;        /* some camera has an aperture */
@@ -51,11 +55,12 @@ enum scene_copy {
     SCENE_COPY_COUNT,
 };
 
-/* Reads the scene and every file it includes by a literal name. An include file is looked for in `directories`, in their
+/* Reads the scene and every file it includes by a literal name; `choice` is kept. An include file is looked for in `directories`, in their
  * order; one that isn't found stays as it is, for POV-Ray to look for. The caller frees the scene, also after a failure.
- * RESULT_DATA, with file and line, for what can't be taken: an #include or an assumed_gamma that is not a literal. */
-MUST_CHECK enum result scene_load(struct scene *scene, const char *path, const char *const *directories,
-                                  int directory_count, struct error *err);
+ * RESULT_DATA, with file and line, for what can't be taken: an #include or an assumed_gamma that is not a literal; also
+ * for a chosen name that nothing glossy could have. */
+MUST_CHECK enum result scene_load(struct scene *scene, const char *path, const struct gloss_choice *choice,
+                                  const char *const *directories, int directory_count, struct error *err);
 void scene_free(struct scene *scene);
 
 /* Writes one copy of all files into the folder. RESULT_DATA, with file and line, for a construct that can't be taken. */

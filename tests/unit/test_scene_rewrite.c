@@ -7,11 +7,14 @@
 #include "gbuffer.h"
 #include "io_support.h"
 
+/* What --gloss says in the tests; nothing unless a test sets it. */
+static struct gloss_choice chosen;
+
 /* Loads the scene `name` of the scratch folder, with includes from there. */
 static enum result load(struct scene *scene, const char *name, struct error *err)
 {
     const char *const directories[] = {scratch};
-    return scene_load(scene, in_scratch(name), directories, 1, err);
+    return scene_load(scene, in_scratch(name), &chosen, directories, 1, err);
 }
 
 static void write_text(const char *name, const char *text)
@@ -84,7 +87,7 @@ static void assert_rewritings(const struct rewriting *cases, size_t count)
 #define CODED SCENE_COPY_CODED
 
 #define OPEN " union { povgloss_nothing()"
-#define TEXTURE "texture { #declare povgloss_texture = -1; #declare povgloss_last = povgloss_texture; "
+#define TEXTURE "texture { #declare povgloss_texture = povgloss_none; #declare povgloss_last = povgloss_texture; "
 
 static void copy__statements_of_the_top_level__union_broken_dropped_or_kept(void **state)
 {
@@ -240,17 +243,58 @@ static void copy__finishes__marked(void **state)
     (void)state;
     static const struct rewriting cases[] = {
         {BASE, "sphere { 0, 1 finish { phong 1 } }",
-         "sphere { 0, 1 finish { povgloss_begin(-1) phong 1 povgloss_end() } }"},
-        {BASE, "sphere { 0, 1 finish { } }", "sphere { 0, 1 finish { povgloss_begin(-1) povgloss_end() } }"},
+         "sphere { 0, 1 finish { povgloss_begin(povgloss_none) phong 1 povgloss_end() } }"},
+        {BASE, "sphere { 0, 1 finish { } }", "sphere { 0, 1 finish { povgloss_begin(povgloss_none) povgloss_end() } }"},
         {MIRROR, "sphere { 0, 1 texture { finish { reflection 0.5 Gloss(9) } } }",
-         "sphere { 0, 1 " TEXTURE "finish { povgloss_begin(povgloss_texture) #declare povgloss_reflects = 1; reflection 0.5 "
+         "sphere { 0, 1 " TEXTURE "finish { povgloss_begin(povgloss_texture) povgloss_reflection(1) reflection 0.5 "
          "Gloss(9) povgloss_end() } } }"},
         {REFLECTANCE, "sphere { 0, 1 finish { reflection { 0.1, 1 fresnel } } }",
-         "sphere { 0, 1 finish { povgloss_begin(-1) #declare povgloss_reflects = 1; reflection { 0.1, 1 fresnel } "
+         "sphere { 0, 1 finish { povgloss_begin(povgloss_none) povgloss_reflection(1) reflection { 0.1, 1 fresnel } "
          "povgloss_end() } }"},
         {PLAIN, "sphere { 0, 1 finish { reflection 1 Gloss(9) } }", NULL},
     };
     ASSERT_REWRITINGS(cases);
+}
+
+static void copy__chosen_names__given_their_exponent(void **state)
+{
+    (void)state;
+    static struct gloss_name names[] = {{"N", 300}, {"M", INFINITY}};
+    static const struct rewriting cases[] = {
+        {BASE, "#declare N = finish { F } x",
+         "#declare N = finish { #declare povgloss_given = 300; povgloss_begin(povgloss_none) F povgloss_end() "
+         "#declare povgloss_given = -1; } #declare povgloss_of_0 = povgloss_last; x"},
+        {BASE, "#declare M = material { texture { T } } x",
+         "#declare M = material { #declare povgloss_given = 1e+30; " TEXTURE
+         "T finish { povgloss_begin(povgloss_texture) povgloss_end() } } #declare povgloss_given = -1; } x"},
+        {PLAIN, "#declare N = finish { F }", NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        chosen = (struct gloss_choice){.names = i == 1 ? names + 1 : names, .name_count = 1};
+        assert_rewritings(cases + i, 1);
+    }
+    chosen = (struct gloss_choice){0};
+}
+
+static void copy__highlights__noted_for_automatic_gloss(void **state)
+{
+    (void)state;
+    static const struct rewriting automatic[] = {
+        {BASE, "finish { phong 1 phong_size 4*S reflection 0 }",
+         "finish { povgloss_begin(povgloss_none) phong 1 #declare povgloss_size = 4*S; povgloss_phong_size() "
+         "povgloss_reflection(0) reflection 0 povgloss_end() }"},
+        {MIRROR, "finish { specular 1 roughness\n1/60 }",
+         "finish { povgloss_begin(povgloss_none) specular 1 #declare povgloss_size =\n1/60; povgloss_roughness() "
+         "povgloss_end() }"},
+        {CODED, "#declare F = finish { phong_size 9 }", NULL},
+    };
+    static const struct rewriting else_plain[] = {
+        {BASE, "finish { phong_size 9 }", "finish { povgloss_begin(povgloss_none) phong_size 9 povgloss_end() }"},
+    };
+    chosen.automatic = true;
+    ASSERT_REWRITINGS(automatic);
+    chosen = (struct gloss_choice){0};
+    ASSERT_REWRITINGS(else_plain);
 }
 
 /* Names have the indices of their first declaration. */
@@ -259,19 +303,19 @@ static void copy__declared_finishes_and_textures__hand_their_gloss_on(void **sta
     (void)state;
     static const struct rewriting cases[] = {
         {BASE, "#declare X = 1; #declare F = finish { phong 1 }\nsphere { 0, X finish { F } }",
-         "#declare X = 1; #declare F = finish { povgloss_begin(-1) phong 1 povgloss_end() } "
+         "#declare X = 1; #declare F = finish { povgloss_begin(povgloss_none) phong 1 povgloss_end() } "
          "#declare povgloss_of_1 = povgloss_last; \n"
-         "sphere { 0, X finish { povgloss_begin(-1) F #ifdef (povgloss_of_1) #declare povgloss_inherited = povgloss_of_1; "
+         "sphere { 0, X finish { povgloss_begin(povgloss_none) F #ifdef (povgloss_of_1) #declare povgloss_state = povgloss_of_1; "
          "#end povgloss_end() } }"},
         {BASE, "#declare T = texture { A };\nsphere { 0, 1 texture { T } }",
          "#declare T = " TEXTURE "A }; #declare povgloss_of_0 = povgloss_last; \n"
-         "sphere { 0, 1 texture { #declare povgloss_texture = -1; T #ifdef (povgloss_of_0) #declare povgloss_texture = "
+         "sphere { 0, 1 texture { #declare povgloss_texture = povgloss_none; T #ifdef (povgloss_of_0) #declare povgloss_texture = "
          "povgloss_of_0; #end #declare povgloss_last = povgloss_texture; } }"},
         /* Of layers the last one counts. */
         {BASE, "#declare T = texture { A } texture { B } x",
          "#declare T = " TEXTURE "A } " TEXTURE "B } #declare povgloss_of_0 = povgloss_last; x"},
         {BASE, "#declare A[0] = finish { phong 1 }",
-         "#declare A[0] = finish { povgloss_begin(-1) phong 1 povgloss_end() }"},
+         "#declare A[0] = finish { povgloss_begin(povgloss_none) phong 1 povgloss_end() }"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -324,7 +368,7 @@ static void copy__arrays_of_textures__take_no_directives(void **state)
         {MIRROR, "#declare F = array[2] { finish { reflection 1 }, finish { diffuse 1 } }", NULL},
         {CODED, "#declare F = array[1] { texture { pigment { P } } }", NULL},
         {BASE, "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { F[0] } }",
-         "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { povgloss_begin(-1) "
+         "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { povgloss_begin(povgloss_none) "
          "#declare povgloss_reflects = 1; F[0] povgloss_end() } }"},
     };
     ASSERT_REWRITINGS(cases);
@@ -502,7 +546,7 @@ static void include__in_two_directories__the_first(void **state)
     write_text("two/y.inc", "// two");
     write_text("scene.inc", "// not in a directory that is looked in");
     write_text("scene.pov", "#include \"x.inc\" #include \"y.inc\" #include \"scene.inc\"");
-    assert_ok(scene_load(&scene, in_scratch("scene.pov"), directories, 2, &err), err);
+    assert_ok(scene_load(&scene, in_scratch("scene.pov"), &chosen, directories, 2, &err), err);
     assert_int_equal(scene.file_count, 3);
     assert_string_equal(scene.files[1].path, in_scratch("one/x.inc"));
     assert_string_equal(scene.files[2].path, in_scratch("two/y.inc"));
@@ -511,7 +555,7 @@ static void include__in_two_directories__the_first(void **state)
     free(text);
     scene_free(&scene);
     /* No directory at all. */
-    assert_ok(scene_load(&scene, in_scratch("scene.pov"), NULL, 0, &err), err);
+    assert_ok(scene_load(&scene, in_scratch("scene.pov"), &chosen, NULL, 0, &err), err);
     assert_int_equal(scene.file_count, 1);
     scene_free(&scene);
     run("rm -r one two scene.inc");
@@ -592,7 +636,7 @@ static void load__missing_scene_or_folder__refused(void **state)
     assert_int_equal(load(&scene, "missing.pov", &err), RESULT_DATA);
     assert_contains(err.text, in_scratch("missing.pov"));
     scene_free(&scene);
-    assert_int_equal(scene_load(&scene, scratch, NULL, 0, &err), RESULT_DATA);
+    assert_int_equal(scene_load(&scene, scratch, &chosen, NULL, 0, &err), RESULT_DATA);
     assert_contains(err.text, scratch);
     scene_free(&scene);
     scene_free(&scene);
@@ -666,41 +710,91 @@ static void load__version__of_the_first_directive(void **state)
     }
 }
 
-static void load__gloss_calls__counted_with_their_one_exponent(void **state)
+static void load__gloss_calls__found_with_their_one_exponent(void **state)
 {
     (void)state;
     static const struct {
         const char *text;
-        int calls;
+        bool glossy;
         double exponent;
     } cases[] = {
-        {"sphere { 0, 1 }", 0, -1},
-        {"Gloss(300)", 1, 300},
-        {"Gloss(3e2) Gloss( 300. )", 2, 300},
-        {"Gloss(300) Gloss(100)", 2, -1},
-        {"Gloss(300) Gloss(100) Gloss(300)", 3, -1},
-        {"Gloss(100) Gloss(300) Gloss(300)", 3, -1},
-        {"Gloss(P)", 1, -1},
-        {"Gloss(P) Gloss(300)", 2, -1},
-        {"Gloss(300) Gloss(P)", 2, -1},
-        {"Gloss(2*150)", 1, -1},
-        {"Gloss(0)", 1, 0},
-        {"Gloss_Roughness(0.5)", 1, 7.5}, /* 1/(2 r^4) - 1/2 */
-        {"Gloss_Roughness(0.5) Gloss(7.5)", 2, 7.5},
-        {"Gloss_Roughness(1)", 1, 0},
-        {"Gloss_Roughness(0)", 1, INFINITY},
-        {"// Gloss(1)\n/* Gloss(2) */ \"Gloss(3)\" Gloss (4)", 1, 4},
-        {"#macro Gloss(P) #end", 0, -1},
-        {"Glossy(5) My_Gloss(6) Gloss", 0, -1},
+        {"sphere { 0, 1 }", false, -1},
+        {"Gloss(300)", true, 300},
+        {"Gloss(3e2) Gloss( 300. )", true, 300},
+        {"Gloss(300) Gloss(100)", true, -1},
+        {"Gloss(300) Gloss(100) Gloss(300)", true, -1},
+        {"Gloss(100) Gloss(300) Gloss(300)", true, -1},
+        {"Gloss(P)", true, -1},
+        {"Gloss(P) Gloss(300)", true, -1},
+        {"Gloss(300) Gloss(P)", true, -1},
+        {"Gloss(2*150)", true, -1},
+        {"Gloss(0)", true, 0},
+        {"Gloss_Roughness(0.5)", true, 7.5}, /* 1/(2 r^4) - 1/2 */
+        {"Gloss_Roughness(0.5) Gloss(7.5)", true, 7.5},
+        {"Gloss_Roughness(1)", true, 0},
+        {"Gloss_Roughness(0)", true, INFINITY},
+        {"// Gloss(1)\n/* Gloss(2) */ \"Gloss(3)\" Gloss (4)", true, 4},
+        {"#macro Gloss(P) #end", false, -1},
+        {"Glossy(5) My_Gloss(6) Gloss", false, -1},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct scene scene;
         load_text(&scene, cases[i].text);
-        assert_int_equal(scene.gloss_calls, cases[i].calls);
+        assert_int_equal(scene.glossy, cases[i].glossy);
         if (!(scene.exponent == cases[i].exponent || fabs(scene.exponent - cases[i].exponent) < 1e-12))
             fail_msg("%s: %g", cases[i].text, scene.exponent);
         scene_free(&scene);
     }
+}
+
+static void load__chosen_gloss__noted_with_its_one_exponent(void **state)
+{
+    (void)state;
+    static struct gloss_name one[] = {{"F", 300}}, two[] = {{"F", 300}, {"T", 20}};
+    static const char mirror[] = "#declare F = finish { reflection 1 } #declare T = texture { finish { F } }",
+                      highlight[] = "finish { reflection 1 phong_size 9 }", dull[] = "finish { reflection 0 phong_size 9 }";
+    static const struct {
+        const char *text;
+        struct gloss_choice choice;
+        bool glossy;
+        double exponent;
+    } cases[] = {
+        {mirror, {.name_count = 0}, false, -1},
+        {mirror, {.names = one, .name_count = 1}, true, 300},
+        {mirror, {.names = two, .name_count = 2}, true, -1},
+        {mirror, {.all = true, .all_exponent = 5}, true, 5},
+        {mirror, {.automatic = true}, false, -1},
+        {highlight, {.automatic = true}, true, -1},
+        {highlight, {.automatic = true, .all = true, .all_exponent = 5}, true, -1},
+        {dull, {.automatic = true, .all = true, .all_exponent = 5}, false, -1},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct scene scene;
+        chosen = cases[i].choice;
+        load_text(&scene, cases[i].text);
+        if (scene.glossy != cases[i].glossy || scene.exponent != cases[i].exponent)
+            fail_msg("case %zu: %d with %g", i, scene.glossy, scene.exponent);
+        scene_free(&scene);
+    }
+    chosen = (struct gloss_choice){0};
+}
+
+static void load__chosen_name_that_nothing_glossy_has__refused(void **state)
+{
+    (void)state;
+    static struct gloss_name name[] = {{"P", 300}};
+    static const char *const texts[] = {"sphere { 0, 1 }", "#declare P = pigment { rgb 1 }", "#macro P() #end",
+                                        "#declare p = finish { reflection 1 }", "#declare PP = finish { reflection 1 }"};
+    chosen = (struct gloss_choice){.names = name, .name_count = 1};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        struct scene scene;
+        struct error err;
+        write_text("scene.pov", texts[i]);
+        assert_int_equal(load(&scene, "scene.pov", &err), RESULT_DATA);
+        assert_non_null(strstr(err.text, "declared by the name P"));
+        scene_free(&scene);
+    }
+    chosen = (struct gloss_choice){0};
 }
 
 static void load__povgloss_inc__its_own_calls_do_not_count(void **state)
@@ -710,7 +804,7 @@ static void load__povgloss_inc__its_own_calls_do_not_count(void **state)
     write_text("povgloss.inc", "#macro Gloss(P) #end #macro Gloss_Roughness(R) Gloss(1/R) #end");
     load_text(&scene, "#include \"povgloss.inc\" Gloss(50)");
     assert_int_equal(scene.file_count, 2);
-    assert_int_equal(scene.gloss_calls, 1);
+    assert_true(scene.glossy);
     assert_near(scene.exponent, 50, 0);
     scene_free(&scene);
     unlink(in_scratch("povgloss.inc"));
@@ -906,9 +1000,9 @@ static void copy__sample_scenes__every_line_where_it_was(void **state)
     for (int i = 0; i < SAMPLES; i++) {
         struct scene scene;
         struct error err;
-        assert_ok(scene_load(&scene, sample_path(i), directories, 1, &err), err);
+        assert_ok(scene_load(&scene, sample_path(i), &chosen, directories, 1, &err), err);
         assert_true(scene.file_count >= 2);
-        assert_true(scene.gloss_calls > 0);
+        assert_true(scene.glossy);
         for (int copy = 0; copy < SCENE_COPY_COUNT; copy++)
             for (int file = 0; file < scene.file_count; file++) {
                 char *text = copy_text(&scene, (enum scene_copy)copy, file);
@@ -1038,7 +1132,11 @@ int main(void)
         cmocka_unit_test(load__gamma__number_srgb_or_by_version),
         cmocka_unit_test(load__gamma_by_an_expression__refused_with_file_and_line),
         cmocka_unit_test(load__version__of_the_first_directive),
-        cmocka_unit_test(load__gloss_calls__counted_with_their_one_exponent),
+        cmocka_unit_test(load__gloss_calls__found_with_their_one_exponent),
+        cmocka_unit_test(load__chosen_gloss__noted_with_its_one_exponent),
+        cmocka_unit_test(load__chosen_name_that_nothing_glossy_has__refused),
+        cmocka_unit_test(copy__chosen_names__given_their_exponent),
+        cmocka_unit_test(copy__highlights__noted_for_automatic_gloss),
         cmocka_unit_test(load__povgloss_inc__its_own_calls_do_not_count),
         cmocka_unit_test(load__plain_mirrors__reflection_without_gloss),
         cmocka_unit_test(load__atmosphere__at_the_top_level_only),
