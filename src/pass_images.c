@@ -184,6 +184,38 @@ static void note_invisible(const struct gbuffer *gbuffer, const char *scene, str
               "%s: the camera sees no glossy surface: does the finish with Gloss() reflect, and is it used?", scene);
 }
 
+static bool glossy_around(const struct image *phong, int x, int y)
+{
+    enum { REACH = 2 };
+    for (int v = y - REACH; v <= y + REACH; v++)
+        for (int u = x - REACH; u <= x + REACH; u++)
+            if (v >= 0 && v < phong->height && u >= 0 && u < phong->width && image_row(phong, 0, v)[u] > 0)
+                return true;
+    return false;
+}
+
+/* The reflectance pass sees through everything that the eye sees through. Where it finds a glossy reflection and the other
+ * passes no glossy surface, not even at a silhouette, that reflection is missing in the picture. */
+static void note_lost(const struct gbuffer *gbuffer, const char *scene, struct error *note)
+{
+    const double least = 0.02, share = 0.001;
+    const struct image *reflectance = &gbuffer->reflectance;
+    long lost = 0;
+    for (int y = 0; y < reflectance->height; y++)
+        for (int x = 0; x < reflectance->width; x++) {
+            double largest = 0;
+            for (int channel = 0; channel < 3; channel++)
+                largest = fmax(largest, (double)image_row(reflectance, channel, y)[x]);
+            lost += largest > least && !glossy_around(&gbuffer->phong, x, y);
+        }
+    double part = (double)lost / ((double)reflectance->width * reflectance->height);
+    if (part > share)
+        error_set(note, RESULT_OK,
+                  "%s: at %.2g %% of the pixels a glossy reflection is left out: the surface is seen through something that "
+                  "only POV-Ray can look through, such as a total reflection",
+                  scene, 100 * part);
+}
+
 /* Nothing is glossy: the base is all. */
 static enum result make_dull(struct gbuffer *gbuffer, struct error *err)
 {
@@ -231,6 +263,8 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         note_invisible(gbuffer, images->name, note);
         if (images->subsample > 1)
             result = interpolate_gbuffer(gbuffer, err);
+        else
+            note_lost(gbuffer, images->name, note);
     }
     image_free(&directions);
     image_free(&codes);

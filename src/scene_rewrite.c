@@ -35,20 +35,24 @@ struct rules {
     enum statements statements;
     bool lights;
     bool marks;           /* povgloss_begin and povgloss_end in finishes */
-    bool pigments;        /* pigments become povgloss_pigment */
-    bool opaque;          /* filter and transmit become 0 */
+    bool pigments;        /* pigments become povgloss_pigment, or the parts of it that hide what is behind them */
+    bool places;          /* transparent objects of the top level are placed by povgloss_place */
     bool coded;           /* textures are taken off */
+    bool covers;          /* it matters whether a pigment is transparent */
     bool technical;       /* linear working space, no photons, no radiosity */
 };
 
 static const struct rules copy_rules[SCENE_COPY_COUNT] = {
     [SCENE_COPY_PLAIN] = {"plain", STATEMENTS_BREAK, .lights = true},
     [SCENE_COPY_BASE] = {"base", STATEMENTS_STAY, .lights = true, .marks = true},
-    [SCENE_COPY_BASE_SECOND] = {"base2", STATEMENTS_DROP, .marks = true},
-    [SCENE_COPY_MIRROR] = {"mirror", STATEMENTS_CAMERA, .marks = true, .pigments = true, .technical = true},
-    [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .marks = true, .pigments = true, .technical = true},
-    [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .marks = true, .opaque = true},
-    [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .coded = true, .technical = true},
+    [SCENE_COPY_BASE_FIRST] = {"base1", STATEMENTS_BREAK, .lights = true, .marks = true, .places = true},
+    [SCENE_COPY_BASE_SECOND] = {"base2", STATEMENTS_DROP, .marks = true, .places = true},
+    [SCENE_COPY_MIRROR] = {"mirror", STATEMENTS_CAMERA, .marks = true, .pigments = true, .covers = true,
+                           .technical = true},
+    [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .marks = true, .pigments = true, .covers = true,
+                                  .technical = true},
+    [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .marks = true, .covers = true},
+    [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .coded = true, .covers = true, .technical = true},
 };
 
 static bool in_list(const struct scene_file *file, int token, const char *const *words)
@@ -74,6 +78,17 @@ static bool is_mark(const struct scene_file *file, int token, const char *mark)
 static bool is_directive(const struct scene_file *file, int token, const char *word)
 {
     return token >= 0 && token_is(&file->source, &file->list.tokens[token], TOKEN_DIRECTIVE, word);
+}
+
+/* Directives that an #end closes. */
+static const char *const openers[] = {"if", "ifdef", "ifndef", "while", "for", "switch", "macro", NULL};
+
+static bool in_directives(const struct scene_file *file, int token, const char *const *words)
+{
+    for (; *words; words++)
+        if (is_directive(file, token, *words))
+            return true;
+    return false;
 }
 
 static double number_value(const struct scene_file *file, int token)
@@ -276,6 +291,21 @@ static enum result follow_include(struct scene *scene, int index, int token, con
     return RESULT_OK;
 }
 
+/* The name that the directive at `token` declares, or -1: `#declare deprecated once "message" X`, `#macro X`. */
+static int declared_name(const struct scene_file *file, int token)
+{
+    if (is_directive(file, token, "macro"))
+        return token + 1;
+    if (!is_directive(file, token, "declare") && !is_directive(file, token, "local"))
+        return -1;
+    token++;
+    if (is_word(file, token, "deprecated")) {
+        token += 1 + is_word(file, token + 1, "once");
+        token += file->list.tokens[token].kind == TOKEN_STRING;
+    }
+    return token;
+}
+
 /* `X = array[2] { finish {...}, ... }`, at X. */
 static bool is_filled_array(const struct scene_file *file, int name)
 {
@@ -304,18 +334,18 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
 {
     const struct scene_file *file = &scene->files[index];
     const struct token *tokens = file->list.tokens;
-    bool declares = is_directive(file, token, "declare") || is_directive(file, token, "local") ||
-                    is_directive(file, token, "macro");
-    if (declares && tokens[token + 1].kind == TOKEN_WORD) {
-        enum result result = add_name(&scene->names, file, token + 1, err);
-        if (!result && is_mark(file, token + 2, "=") && is_word(file, token + 3, "light_source"))
-            result = add_name(&scene->lights, file, token + 1, err);
-        if (!result && is_filled_array(file, token + 1))
-            result = add_name(&scene->arrays, file, token + 1, err);
-        if (!result && is_layered(file, token + 1))
-            result = add_name(&scene->layered, file, token + 1, err);
-        if (!result && is_mark(file, token + 2, "=") && in_list(file, token + 3, glossy_words))
-            result = add_name(&scene->glossable, file, token + 1, err);
+    int name = declared_name(file, token);
+    if (name > 0 && tokens[name].kind == TOKEN_WORD) {
+        bool value = is_mark(file, name + 1, "=");
+        enum result result = add_name(&scene->names, file, name, err);
+        if (!result && value && is_word(file, name + 2, "light_source"))
+            result = add_name(&scene->lights, file, name, err);
+        if (!result && is_filled_array(file, name))
+            result = add_name(&scene->arrays, file, name, err);
+        if (!result && is_layered(file, name))
+            result = add_name(&scene->layered, file, name, err);
+        if (!result && value && in_list(file, name + 2, glossy_words))
+            result = add_name(&scene->glossable, file, name, err);
         return result;
     }
     if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
@@ -369,6 +399,134 @@ static enum result load_file(struct scene *scene, char *path, const char *const 
     return result;
 }
 
+/* The token after the value that begins at `token`; of the operators in it, the four of arithmetic are followed. */
+static int value_end(const struct scene_file *file, int token)
+{
+    for (;;) {
+        while (is_mark(file, token, "+") || is_mark(file, token, "-"))
+            token++;
+        if (is_mark(file, token, "<"))
+            while (token < file->list.count - 1 && !is_mark(file, token, ">"))
+                token++;
+        else if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
+            token = file->list.tokens[token].match;
+        else if (file->list.tokens[token].kind != TOKEN_NUMBER && file->list.tokens[token].kind != TOKEN_WORD)
+            return token;
+        token++;
+        for (;;) {
+            if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
+                token = file->list.tokens[token].match + 1;
+            else if (is_mark(file, token, "["))
+                while (token < file->list.count - 1 && !is_mark(file, token++, "]"))
+                    ;
+            else if (is_mark(file, token, "."))
+                token += 2;
+            else
+                break;
+        }
+        if (!is_mark(file, token, "+") && !is_mark(file, token, "-") && !is_mark(file, token, "*") &&
+            !is_mark(file, token, "/"))
+            return token;
+        token++;
+    }
+}
+
+/* ---- what may be transparent ---- */
+
+static const char *const clear_words[] = {"rgbt",   "rgbf",     "rgbft",  "srgbt",     "srgbf",
+                                          "srgbft", "transmit", "filter", "image_map", NULL};
+
+/* Whether the token names a transparent colour, an image, or something that was declared with one. */
+static bool names_clear(const struct scene *scene, const struct scene_file *file, int token)
+{
+    return in_list(file, token, clear_words) || find_name(&scene->clear, file, token) >= 0;
+}
+
+static enum result count_clear(struct scene *scene, struct error *err)
+{
+    for (int i = 0; i < scene->file_count; i++) {
+        struct scene_file *file = &scene->files[i];
+        size_t size = ((size_t)file->list.count + 1) * sizeof *file->clear;
+        file->clear = calloc(1, size);
+        if (!file->clear)
+            return error_memory(err, (double)size);
+        for (int token = 0; token < file->list.count; token++)
+            file->clear[token + 1] = file->clear[token] + names_clear(scene, file, token);
+    }
+    return RESULT_OK;
+}
+
+static bool may_be_clear(const struct scene_file *file, int first, int last)
+{
+    return last >= first && file->clear[last + 1] > file->clear[first];
+}
+
+/* The last token of the value that is declared from `token` on, roughly: never too early. */
+static int last_of_value(const struct scene_file *file, int token)
+{
+    while (token < file->list.count - 1 && file->list.tokens[token].kind != TOKEN_DIRECTIVE && !is_mark(file, token, ";")) {
+        int match = is_mark(file, token, "{") ? file->list.tokens[token].match : -1;
+        if (match > 0 && !is_word(file, match + 1, "texture"))
+            return match;
+        token = match > 0 ? match + 1 : token + 1;
+    }
+    return token;
+}
+
+/* The #end of the #macro at `token`. */
+static int end_of_macro(const struct scene_file *file, int token)
+{
+    int depth = 0;
+    for (; token < file->list.count - 1; token++) {
+        if (file->list.tokens[token].kind != TOKEN_DIRECTIVE)
+            continue;
+        depth += in_directives(file, token, openers);
+        depth -= is_directive(file, token, "end");
+        if (depth <= 0)
+            break;
+    }
+    return token;
+}
+
+/* The parameters of a macro may be anything. */
+static enum result note_parameters(struct scene *scene, const struct scene_file *file, int name, struct error *err)
+{
+    enum result result = RESULT_OK;
+    int last = is_mark(file, name + 1, "(") ? file->list.tokens[name + 1].match : -1;
+    for (int token = name + 2; !result && token < last; token++)
+        if (file->list.tokens[token].kind == TOKEN_WORD)
+            result = add_name(&scene->clear, file, token, err);
+    return result;
+}
+
+/* Finds the names through which a pigment may be transparent: those declared with a transparent colour or an image, or with
+ * such a name, until none is added. */
+static enum result note_clear_names(struct scene *scene, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (size_t before = scene->clear.size + 1; !result && scene->clear.size != before;) {
+        before = scene->clear.size;
+        for (int i = 0; i < scene->file_count; i++) {
+            const struct scene_file *file = &scene->files[i];
+            for (int token = 0; !result && token < file->list.count - 1; token++) {
+                bool macro = is_directive(file, token, "macro");
+                int name = declared_name(file, token);
+                if (name < 0 || file->list.tokens[name].kind != TOKEN_WORD)
+                    continue;
+                if (macro)
+                    result = note_parameters(scene, file, name, err);
+                int last = macro ? end_of_macro(file, token) : last_of_value(file, name + 1);
+                bool clear = find_name(&scene->clear, file, name) >= 0, found = false;
+                for (int word = name + 1; !clear && !found && word <= last; word++)
+                    found = names_clear(scene, file, word);
+                if (!result && found)
+                    result = add_name(&scene->clear, file, name, err);
+            }
+        }
+    }
+    return result;
+}
+
 static bool has_name(const struct buffer *names, const char *name)
 {
     for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1)
@@ -410,7 +568,10 @@ enum result scene_load(struct scene *scene, const char *path, const struct gloss
         scene->version = number_value(main_file, 1);
     if (scene->working_gamma == 0)
         scene->working_gamma = scene->version >= 3.7 ? 1 : GBUFFER_GAMMA_SRGB;
-    return note_choice(scene, choice, err);
+    result = note_clear_names(scene, err);
+    if (!result)
+        result = count_clear(scene, err);
+    return result ? result : note_choice(scene, choice, err);
 }
 
 void scene_free(struct scene *scene)
@@ -420,6 +581,7 @@ void scene_free(struct scene *scene)
         free(scene->files[i].includes);
         buffer_free(&scene->files[i].source);
         token_list_free(&scene->files[i].list);
+        free(scene->files[i].clear);
     }
     free(scene->files);
     buffer_free(&scene->names);
@@ -427,6 +589,7 @@ void scene_free(struct scene *scene)
     buffer_free(&scene->arrays);
     buffer_free(&scene->layered);
     buffer_free(&scene->glossable);
+    buffer_free(&scene->clear);
     *scene = (struct scene){0};
 }
 
@@ -553,33 +716,76 @@ static enum result write_statement(struct writer *writer, int token, int last, s
 }
 
 /* A finish or texture that begins with a declared name takes over that one's state (pass_scene.c), which is kept in a
- * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows). */
-static enum result inherit_gloss(struct writer *writer, int token, const char *variable, struct error *err)
+ * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows), by the macro. */
+static enum result inherit_state(struct writer *writer, int token, const char *macro, struct error *err)
 {
     int name = find_name(&writer->scene->names, writer->file, token);
     if (name < 0 || is_mark(writer->file, token + 1, "["))
         return RESULT_OK;
     enum result result = copy_to(writer, writer->file->list.tokens[token].end, err);
     return result ? result
-                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) #declare %s = povgloss_of_%d; #end", name,
-                                  variable, name);
+                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) %s(povgloss_of_%d) #end", name, macro, name);
 }
 
-static enum result write_finish(struct writer *writer, int token, int last, struct error *err)
+/* Whether it matters where this block is transparent. */
+static bool tracks(const struct writer *writer, int first, int last)
 {
-    int brace = writer->file->list.tokens[token].parent;
-    bool in_texture = brace > 0 && is_word(writer->file, brace - 1, "texture");
-    enum result result = insert_after(
-        writer, token + 1, in_texture ? " povgloss_begin(povgloss_texture) " : " povgloss_begin(povgloss_none) ", err);
+    const struct gloss_choice *choice = writer->scene->choice;
+    bool asked = writer->rules->covers || writer->rules->places ||
+                 (writer->rules->marks && (choice->automatic || choice->all));
+    return asked && may_be_clear(writer->file, first, last);
+}
+
+/* The pigment before the block at `token` in the same braces whose transparency is tracked, or -1. */
+static int covered_sibling(const struct writer *writer, int token)
+{
+    const struct scene_file *file = writer->file;
+    int parent = file->list.tokens[token].parent;
+    for (int i = token - 1; i > parent && i > 0; i--) {
+        if (is_mark(file, i, "}") && file->list.tokens[i].match > 0)
+            i = file->list.tokens[i].match - 1;
+        if (is_word(file, i, "pigment") && opens_block(file, i))
+            return tracks(writer, i + 2, file->list.tokens[i + 1].match) ? i : -1;
+    }
+    return -1;
+}
+
+/* A pigment that may be transparent is declared first, so that POV-Ray can say where it is. */
+static enum result write_cover(struct writer *writer, int token, int last, struct error *err)
+{
+    static const char *const uv[] = {"uv_mapping", NULL};
+    int parent = writer->file->list.tokens[token].parent;
+    bool in_texture = parent > 0 && (is_word(writer->file, parent - 1, "texture") ||
+                                     is_word(writer->file, parent - 1, "interior_texture"));
+    enum result result = insert_before(writer, token, "#declare povgloss_cover = ", err);
     if (!result)
-        result = inherit_gloss(writer, token + 2, "povgloss_state", err);
+        result = insert_after(writer, last, ";", err);
+    return result ? result
+                  : buffer_printf(&writer->out, err, " povgloss_cover_of_%s(%d) ", in_texture ? "texture" : "object",
+                                  mentions(writer->file, token + 2, last, uv));
+}
+
+/* A finish that is declared by a name leaves automatic gloss to the textures and objects that use it. */
+static enum result write_finish(struct writer *writer, int token, int last, bool named, struct error *err)
+{
+    int brace = writer->file->list.tokens[token].parent, cover = covered_sibling(writer, token);
+    bool in_texture = brace > 0 && is_word(writer->file, brace - 1, "texture");
+    enum result result = insert_after(writer, token + 1,
+                                      in_texture   ? " povgloss_begin(povgloss_texture) "
+                                      : cover >= 0 ? " povgloss_begin(povgloss_own) "
+                                                   : " povgloss_begin(povgloss_none) ",
+                                      err);
+    if (!result)
+        result = inherit_state(writer, token + 2, "povgloss_of_finish", err);
     /* An element of a filled array comes unmarked. */
     if (!result && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
         result = buffer_add_text(&writer->out, " #declare povgloss_reflects = 1; ", err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
-        result = insert_before(writer, last, " povgloss_end() ", err);
+        result = insert_before(writer, last, named ? " povgloss_end_of_name() " : " povgloss_end() ", err);
+    if (!result && cover >= 0 && writer->rules->covers)
+        result = insert_after(writer, last, " povgloss_hide(povgloss_last) ", err);
     return result;
 }
 
@@ -595,38 +801,88 @@ static const char *const finish_carriers[] = {"finish", "texture", "texture_map"
 
 static enum result write_texture(struct writer *writer, int token, int last, bool upper, struct error *err)
 {
-    enum result result = insert_after(writer, token + 1, " #declare povgloss_texture = povgloss_none;", err);
+    const struct rules *rules = writer->rules;
+    bool cover = tracks(writer, token + 2, last), plain = !mentions(writer->file, token + 2, last, finish_carriers + 1);
+    enum result result = insert_after(writer, token + 1, upper ? " povgloss_upper_layer() " : " povgloss_layer() ", err);
     if (!result)
-        result = inherit_gloss(writer, token + 2, "povgloss_texture", err);
+        result = inherit_state(writer, token + 2, "povgloss_of_texture", err);
     if (!result)
-        result = buffer_add_text(&writer->out, " #declare povgloss_last = povgloss_texture; ", err);
+        result = buffer_add_text(&writer->out, " povgloss_layered() ", err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
-    if (!result && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
+    if (!result && rules->marks && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
         result = insert_before(writer, last,
                                " finish { povgloss_begin(povgloss_none) #declare povgloss_reflects = 1; povgloss_end() } ", err);
-    if (!result && writer->given && !mentions(writer->file, token + 2, last, finish_carriers))
+    if (!result && rules->marks && writer->given && plain && !mentions(writer->file, token + 2, last, finish_carriers))
         result = insert_before(writer, last, " finish { povgloss_begin(povgloss_texture) povgloss_end() } ", err);
+    if (!result && rules->marks && rules->covers && cover && plain)
+        result = insert_before(writer, last, " povgloss_hide(povgloss_last) ", err);
     /* Nothing shows through an opaque layer, but a layer that isn't glossy must not hide a glossy one below. */
-    if (!result && upper && writer->rules->pigments && find_name(&writer->scene->layered, writer->file, token + 2) < 0)
+    if (!result && upper && rules->pigments && find_name(&writer->scene->layered, writer->file, token + 2) < 0)
         result = insert_before(writer, last, " #if (povgloss_exponent(povgloss_last) < 0) pigment { rgbt 1 } #end ", err);
     return result;
 }
 
-/* After `#declare X = finish {...}` or the last layer of `#declare X = texture {...}`: remembers whether X is glossy. */
-static enum result remember_gloss(struct writer *writer, int name_token, int last, struct error *err)
+/* After `#declare X = finish {...}` or the last layer of `#declare X = texture {...}`: remembers the state of X. */
+static enum result remember(struct writer *writer, int name_token, int last, struct error *err)
 {
     int name = find_name(&writer->scene->names, writer->file, name_token), end = last + is_mark(writer->file, last + 1, ";");
     if (name < 0 || is_word(writer->file, last + 1, "texture"))
         return RESULT_OK;
     enum result result = copy_to(writer, writer->file->list.tokens[end].end, err);
-    return result ? result : buffer_printf(&writer->out, err, " #declare povgloss_of_%d = povgloss_last; ", name);
+    if (!result)
+        result = buffer_printf(&writer->out, err, " #declare povgloss_of_%d = povgloss_last; ", name);
+    if (!result && writer->rules->coded)
+        result = buffer_printf(&writer->out, err,
+                               " #ifdef (povgloss_interior) #declare povgloss_interior_of_%d = interior { "
+                               "povgloss_interior } #end ",
+                               name);
+    return result;
+}
+
+/* A material in a copy without textures: its interior is kept for the object, which may be clear. */
+static enum result write_coded_material(struct writer *writer, int token, int last, struct error *err)
+{
+    int name = find_name(&writer->scene->names, writer->file, token + 2);
+    enum result result = insert_after(writer, token + 1, " povgloss_no_interior() #declare povgloss_last = povgloss_none; ", err);
+    if (!result)
+        result = inherit_state(writer, token + 2, "povgloss_of_material", err);
+    if (!result && name >= 0)
+        result = buffer_printf(&writer->out, err,
+                               " #ifdef (povgloss_interior_of_%d) #declare povgloss_interior = interior { "
+                               "povgloss_interior_of_%d } #end ",
+                               name, name);
+    if (!result)
+        result = write_tokens(writer, token + 2, last, err);
+    return result ? result : copy_to(writer, writer->file->list.tokens[last].end, err);
+}
+
+/* Between the eye and a glossy surface nothing may fade, glow or split the ray; media and fading stay in the reflectance. */
+static enum result write_interior(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    enum result result = RESULT_OK;
+    bool keep = writer->rules->coded && inside(file, token, "material");
+    if (keep)
+        result = insert_before(writer, token, "#declare povgloss_interior = ", err);
+    for (int i = token + 2; !result && i < last; i++) {
+        if (!is_word(file, i, "media") || !opens_block(file, i))
+            continue;
+        int end = file->list.tokens[i + 1].match;
+        result = replace_block(writer, i, end, "", err);
+        i = end;
+    }
+    if (!result && writer->rules->technical)
+        result = insert_before(writer, last, " fade_distance 0 fade_power 0 dispersion 1 ", err);
+    if (!result && keep)
+        result = insert_after(writer, last, "; interior { povgloss_interior } ", err);
+    return result ? result : copy_to(writer, file->list.tokens[last].end, err);
 }
 
 static const char *const statement_words[] = {"camera",     "global_settings", "background", "fog",
                                               "sky_sphere", "rainbow",         NULL};
 static const char *const texture_words[] = {"texture",  "pigment", "finish", "normal", "material", "interior_texture",
-                                            "interior", NULL};
+                                            NULL};
 
 /* A light that the copy must not have twice goes, unless it brings an object along (looks_like): then it stays, and fades to
  * nothing within any distance; a declared light takes no such item and stays in a group in which it lights nothing else. */
@@ -649,6 +905,50 @@ static enum result write_light(struct writer *writer, int token, int last, struc
 static bool is_declared_light(const struct writer *writer, int token)
 {
     return is_word(writer->file, token, "object") && find_name(&writer->scene->lights, writer->file, token + 2) >= 0;
+}
+
+/* A material begins in the state of the declared one that it names; its textures then give theirs. */
+static enum result write_material(struct writer *writer, int token, int last, struct error *err)
+{
+    enum result result = insert_after(writer, token + 1, " #declare povgloss_last = povgloss_none; ", err);
+    if (!result)
+        result = inherit_state(writer, token + 2, "povgloss_of_material", err);
+    return result ? result : write_tokens(writer, token + 2, last, err);
+}
+
+static const char *const object_words[] = {
+    "bicubic_patch", "blob",    "box",     "cone",      "cubic",          "cylinder",     "difference", "disc",
+    "height_field",  "intersection", "isosurface", "julia_fractal", "lathe", "merge",     "mesh",       "mesh2",
+    "object",        "parametric", "plane", "poly",     "polygon",        "prism",        "quadric",    "quartic",
+    "smooth_triangle", "sor",   "sphere",  "sphere_sweep", "superellipsoid", "text",      "torus",      "triangle",
+    "union",         NULL};
+
+/* An object that may be transparent, with its textures counted: one of the top level is declared and then placed, a declared
+ * one keeps its counts beside its name (`name`, else -1). */
+static enum result write_object(struct writer *writer, int token, int last, int name, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int index = find_name(&writer->scene->names, file, name),
+        part = is_word(file, token, "object") ? find_name(&writer->scene->names, file, token + 2) : -1;
+    enum result result = name >= 0 ? RESULT_OK : insert_before(writer, token, "#declare povgloss_object = ", err);
+    if (!result)
+        result = insert_after(writer, token + 1, " povgloss_enter() ", err);
+    if (!result && name >= 0)
+        result = buffer_printf(&writer->out, err, "#declare povgloss_before_%d = povgloss_counts; ", index);
+    if (!result && part >= 0) {
+        result = insert_after(writer, token + 2, "", err);
+        if (!result)
+            result = buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #end ",
+                                   part, part);
+    }
+    if (!result)
+        result = write_tokens(writer, token + 2, last, err);
+    if (!result)
+        result = insert_after(writer, last, "; ", err);
+    if (result || name < 0)
+        return result ? result : buffer_add_text(&writer->out, "povgloss_place() ", err);
+    return buffer_printf(&writer->out, err, "povgloss_leave() #declare povgloss_holds_%d = povgloss_counts - povgloss_before_%d; ",
+                         index, index);
 }
 
 /* What the user chose for the name at a token, or NULL. */
@@ -675,16 +975,115 @@ static enum result write_marked(struct writer *writer, int token, int last, int 
     }
     bool finish = is_word(file, token, "finish"), material = is_word(file, token, "material");
     if (!result)
-        result = finish ? write_finish(writer, token, last, err)
-                 : material ? write_tokens(writer, token + 2, last, err)
+        result = finish     ? write_finish(writer, token, last, find_name(&writer->scene->names, file, name) >= 0, err)
+                 : material ? write_material(writer, token, last, err)
                             : write_texture(writer, token, last, is_layer(file, token), err);
     if (!result && choice) {
         writer->given = false;
         result = insert_before(writer, last, " #declare povgloss_given = -1; ", err);
     }
-    if (!result && name >= 0 && !material)
-        result = remember_gloss(writer, name, last, err);
     return result ? result : copy_to(writer, file->list.tokens[last].end, err);
+}
+
+/* `#declare X = texture {...} texture {...}`: POV-Ray takes no directive and no macro in any layer but the first, so each layer
+ * is declared by itself. */
+static enum result write_declared_layers(struct writer *writer, int token, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int directive = token, count = 0, last = token;
+    while (directive > 0 && file->list.tokens[directive].kind != TOKEN_DIRECTIVE)
+        directive--;
+    enum result result = insert_before(writer, directive, "", err);
+    if (!result)
+        result = replace_to(writer, file->list.tokens[token].begin, "", err);
+    for (int layer = token; !result && is_word(file, layer, "texture") && opens_block(file, layer); layer = last + 1) {
+        last = file->list.tokens[layer + 1].match;
+        result = insert_before(writer, layer, "", err);
+        if (!result)
+            result = buffer_printf(&writer->out, err, "#declare povgloss_layer_%d = ", count++);
+        if (!result)
+            result = write_marked(writer, layer, last, writer->value_name, err);
+        if (!result)
+            result = insert_after(writer, last, "; ", err);
+    }
+    for (int i = directive; !result && i < token; i++) {
+        result = buffer_add(&writer->out, file->source.data + file->list.tokens[i].begin,
+                            file->list.tokens[i].end - file->list.tokens[i].begin, err);
+        if (!result)
+            result = buffer_add_text(&writer->out, " ", err);
+    }
+    for (int i = 0; !result && i < count; i++)
+        result = buffer_printf(&writer->out, err, "texture { povgloss_layer_%d } ", i);
+    *next = last + 1;
+    return result ? result : remember(writer, writer->value_name, last, err);
+}
+
+static bool in_triangle(const struct scene_file *file, int token)
+{
+    int parent = file->list.tokens[token].parent;
+    return parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
+}
+
+/* Whether all layers of the texture whose first layer is at `token` may be transparent. */
+static bool layers_may_be_clear(const struct writer *writer, int token)
+{
+    const struct scene_file *file = writer->file;
+    bool clear = !is_layer(file, token);
+    for (int last; clear && is_word(file, token, "texture") && opens_block(file, token); token = last + 1) {
+        last = file->list.tokens[token + 1].match;
+        clear = tracks(writer, token + 2, last);
+    }
+    return clear;
+}
+
+/* What a block that describes a surface may be part of: then it stays with that. */
+static const char *const surface_words[] = {"texture",    "material", "texture_map", "pigment",
+                                            "pigment_map", "normal",   "normal_map",  NULL};
+
+static bool inside_surface(const struct scene_file *file, int token)
+{
+    bool found = false;
+    for (int i = 0; !found && surface_words[i]; i++)
+        found = inside(file, token, surface_words[i]);
+    return found;
+}
+
+/* In a copy without textures those that are declared stay. Of those that may be clear it is remembered whether they are. */
+static enum result write_coded_value(struct writer *writer, int token, int last, int name, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    bool texture = is_word(file, token, "texture"), material = is_word(file, token, "material");
+    bool clear = name >= 0 ? find_name(&writer->scene->clear, file, name) >= 0 : tracks(writer, token + 2, last);
+    if (!clear || fills_array(file, token) || (!texture && !material))
+        return copy_to(writer, file->list.tokens[last].end, err);
+    enum result result = texture ? write_texture(writer, token, last, is_layer(file, token), err)
+                                 : write_coded_material(writer, token, last, err);
+    return result || name < 0 ? result : remember(writer, name, last, err);
+}
+
+/* In an object they go. One that may be clear is declared in front of it, so that POV-Ray decides. */
+static enum result write_coded(struct writer *writer, int token, int last, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    bool triangle = in_triangle(file, token), texture = is_word(file, token, "texture");
+    bool clear = texture ? layers_may_be_clear(writer, token)
+                         : is_word(file, token, "material") && tracks(writer, token + 2, last);
+    if (triangle || !clear)
+        return replace_block(writer, token, last, triangle ? "" : "transform {}", err);
+    enum result result = RESULT_OK;
+    for (int block = token; !result && (block == token || (texture && is_word(file, block, "texture"))) && opens_block(file, block);
+         block = last + 1) {
+        last = file->list.tokens[block + 1].match;
+        result = insert_before(writer, block, "#declare povgloss_dropped = ", err);
+        if (!result)
+            result = texture ? write_texture(writer, block, last, block > token, err)
+                             : write_coded_material(writer, block, last, err);
+        if (!result)
+            result = insert_after(writer, last, "; ", err);
+    }
+    *next = last + 1;
+    result = result ? result : buffer_add_text(&writer->out, "povgloss_coded(povgloss_last.t) ", err);
+    return result || texture ? result : buffer_add_text(&writer->out, "povgloss_coded_interior() ", err);
 }
 
 /* Writes the block `keyword { ... }` whose keyword is at `token` if it is changed by the rules; *next is then the token
@@ -694,6 +1093,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     const struct scene_file *file = writer->file;
     const struct rules *rules = writer->rules;
     int brace = token + 1, last = file->list.tokens[brace].match;
+    bool argument = is_mark(file, token - 1, "(") || is_mark(file, token - 1, ",");
     bool value = is_mark(file, token - 1, "=") || (token == writer->value_end && is_word(file, token, "texture"));
     if (is_mark(file, token - 1, "="))
         writer->value_name = token - 2;
@@ -710,97 +1110,34 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         return write_light(writer, token, last, err);
     if (unlit && is_declared_light(writer, token))
         return replace(writer, token, last, "", err);
-    if (rules->marks && in_list(file, token, glossy_words) && !fills_array(file, token))
-        return write_marked(writer, token, last, value ? writer->value_name : -1, err);
-    if (rules->pigments && !value && is_word(file, token, "pigment") && !inside(file, token, "function"))
+    if (rules->places && (value || (file->list.tokens[token].parent < 0 && !argument)) &&
+        in_list(file, token, object_words) && tracks(writer, token + 2, last))
+        return write_object(writer, token, last, value ? writer->value_name : -1, err);
+    bool pigment = is_word(file, token, "pigment") && !inside(file, token, "function"), filling = fills_array(file, token);
+    if (rules->covers && is_word(file, token, "interior"))
+        return write_interior(writer, token, last, err);
+    bool clear_name = value && find_name(&writer->scene->clear, file, writer->value_name) >= 0;
+    if (value && is_word(file, token, "texture") && is_word(file, last + 1, "texture") && !filling &&
+        (rules->marks || (rules->coded && clear_name)))
+        return write_declared_layers(writer, token, next, err);
+    if (rules->marks && in_list(file, token, glossy_words) && !filling) {
+        enum result result = write_marked(writer, token, last, value ? writer->value_name : -1, err);
+        return result || !value ? result : remember(writer, writer->value_name, last, err);
+    }
+    if (pigment && !value && !filling && tracks(writer, token + 2, last) && !in_triangle(file, token))
+        return write_cover(writer, token, last, err);
+    if (rules->pigments && pigment && !value)
         return replace_block(writer, token, last, "pigment { povgloss_pigment }", err);
     if (rules->coded && is_word(file, token, "texture_list"))
         return error_set(err, RESULT_DATA,
                          "%s:%d: a mesh2 with a texture_list can't be taken yet: split it into one mesh for each texture",
                          file->path, file->list.tokens[token].line);
-    if (rules->coded && in_list(file, token, texture_words)) {
-        if (value || fills_array(file, token))
-            return copy_to(writer, file->list.tokens[last].end, err);
-        int parent = file->list.tokens[token].parent;
-        bool triangle =
-            parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
-        return replace_block(writer, token, last, triangle ? "" : "transform {}", err);
-    }
+    if (rules->coded && in_list(file, token, texture_words))
+        return value || argument || filling || inside_surface(file, token)
+                   ? write_coded_value(writer, token, last, value ? writer->value_name : -1, err)
+                   : write_coded(writer, token, last, next, err);
     *next = 0;
     return RESULT_OK;
-}
-
-static bool in_layer(const struct scene_file *file, int token)
-{
-    for (int brace = file->list.tokens[token].parent; brace > 0; brace = file->list.tokens[brace].parent)
-        if (is_word(file, brace - 1, "texture") && is_layer(file, brace - 1))
-            return true;
-    return false;
-}
-
-/* The token after the value that begins at `token`; of the operators in it, the four of arithmetic are followed. */
-static int value_end(const struct scene_file *file, int token)
-{
-    for (;;) {
-        while (is_mark(file, token, "+") || is_mark(file, token, "-"))
-            token++;
-        if (is_mark(file, token, "<"))
-            while (token < file->list.count - 1 && !is_mark(file, token, ">"))
-                token++;
-        else if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
-            token = file->list.tokens[token].match;
-        else if (file->list.tokens[token].kind != TOKEN_NUMBER && file->list.tokens[token].kind != TOKEN_WORD)
-            return token;
-        token++;
-        for (;;) {
-            if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
-                token = file->list.tokens[token].match + 1;
-            else if (is_mark(file, token, "["))
-                while (token < file->list.count - 1 && !is_mark(file, token++, "]"))
-                    ;
-            else if (is_mark(file, token, "."))
-                token += 2;
-            else
-                break;
-        }
-        if (!is_mark(file, token, "+") && !is_mark(file, token, "-") && !is_mark(file, token, "*") &&
-            !is_mark(file, token, "/"))
-            return token;
-        token++;
-    }
-}
-
-/* filter and transmit of a colour become 0, but for the upper layers of a texture, which let the lower ones through:
- * `transmit T` is `transmit 0*(T)`, `rgbt V` is `rgbt <1,1,1,0>*(V)`. In an image_map they may name a palette entry
- * first. */
-static enum result write_opaque(struct writer *writer, int token, int *next, struct error *err)
-{
-    static const struct {
-        const char *word, *factor;
-    } colours[] = {
-        {"rgbt", " <1,1,1,0>*("},   {"rgbf", " <1,1,1,0>*("},   {"rgbft", " <1,1,1,0,0>*("},
-        {"srgbt", " <1,1,1,0>*("},  {"srgbf", " <1,1,1,0>*("},  {"srgbft", " <1,1,1,0,0>*("},
-        {"transmit", " 0*("},       {"filter", " 0*("},
-    };
-    const struct scene_file *file = writer->file;
-    const char *factor = NULL;
-    for (size_t i = 0; i < sizeof colours / sizeof *colours; i++)
-        if (is_word(file, token, colours[i].word))
-            factor = colours[i].factor;
-    if (!factor || is_mark(file, token - 1, ".") || in_layer(file, token))
-        return RESULT_OK;
-    int first = token + 1 + is_word(file, token + 1, "all"), end = value_end(file, first);
-    if (is_mark(file, end, ",") && inside(file, token, "image_map")) {
-        first = end + 1;
-        end = value_end(file, first);
-    }
-    if (end == first)
-        return RESULT_OK;
-    enum result result = insert_after(writer, first - 1, factor, err);
-    if (!result)
-        result = insert_after(writer, end - 1, ") ", err);
-    *next = end;
-    return result;
 }
 
 /* What says how a finish reflects: noted for povgloss_end; with automatic gloss the lobe of the highlight, too. */
@@ -825,10 +1162,8 @@ static enum result write_finish_item(struct writer *writer, int token, int *next
 
 static void track_directive(struct writer *writer, int token)
 {
-    static const char *const openers[] = {"if", "ifdef", "ifndef", "while", "for", "switch", "macro", NULL};
-    for (int i = 0; openers[i]; i++)
-        if (is_directive(writer->file, token, openers[i]) && writer->conditions < MAX_CONDITIONS)
-            writer->is_macro[writer->conditions++] = !strcmp(openers[i], "macro");
+    if (in_directives(writer->file, token, openers) && writer->conditions < MAX_CONDITIONS)
+        writer->is_macro[writer->conditions++] = is_directive(writer->file, token, "macro");
     if (is_directive(writer->file, token, "end") && writer->conditions > 0)
         writer->conditions--;
     writer->in_macro = false;
@@ -871,8 +1206,6 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
                 result = write_block(writer, i, &next, err);
             if (!result && !next && writer->rules->marks && !fills_array(file, i))
                 result = write_finish_item(writer, i, &next, err);
-            if (!result && !next && writer->rules->opaque)
-                result = write_opaque(writer, i, &next, err);
         }
     }
     return result;

@@ -21,6 +21,7 @@ struct scene_file {
     char *path; /* as the user knows it */
     struct buffer source;
     struct token_list list;
+    int *clear; /* for each token, how many before it name something that may be transparent */
     struct scene_include *includes;
     int include_count;
 };
@@ -33,7 +34,8 @@ struct scene {
     struct buffer lights;  /* in the same form: names that were declared as a light_source, */
     struct buffer arrays;  /* as an array filled in its declaration, */
     struct buffer layered; /* as a texture of several layers, */
-    struct buffer glossable; /* as a finish, texture or material */
+    struct buffer glossable; /* as a finish, texture or material, */
+    struct buffer clear;     /* as something that may be transparent (parameters of macros are among them) */
     bool glossy;           /* some finish may be glossy, by Gloss or Gloss_Roughness or by the user's choice */
     double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
     bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
@@ -47,7 +49,8 @@ struct scene {
 enum scene_copy {
     SCENE_COPY_PLAIN,       /* the scene itself, inside a union */
     SCENE_COPY_BASE,        /* the scene itself with finishes marked, not inside a union */
-    SCENE_COPY_BASE_SECOND, /* the same without lights and statements of the top level, inside a union */
+    SCENE_COPY_BASE_FIRST,  /* the same inside a union, but for transparent objects without gloss, which stand outside */
+    SCENE_COPY_BASE_SECOND, /* the same without lights, statements of the top level and those transparent objects */
     SCENE_COPY_MIRROR,      /* opaque pigments of the pass, finishes marked, inside a union, with the camera */
     SCENE_COPY_MIRROR_SECOND, /* the same without camera and global settings */
     SCENE_COPY_REFLECTANCE, /* colours made opaque, finishes marked, inside a union, with the camera */
