@@ -133,7 +133,7 @@ object{Ball pigment{rgb<.4,.1,.1>}finish{reflection.4Gloss(1e2)}translate<1,0,0>
 POV
 scene "# apart from its word, comments between a word and its brace" << 'POV'
 # declare F /* a finish */ = /* { */ finish // {
-{ reflection /* nested /* } */ */ 0.5 Gloss // (
+{ reflection /* nested /* */ } */ 0.5 Gloss // (
 ( 100 ) } // }
 # if (1) object { Floor pigment /* } */ { rgb 0.3 } finish
 { F } } # end
@@ -188,7 +188,7 @@ scene "comment signs in comments" << 'POV'
 //* finish {
 /* // */ object { Floor pigment { rgb 0.3 } finish { reflection 0.5 /* " */ Gloss(100) //" {
 } } /**/
-/*/ { /*/ */ */
+/*/ { /*/ */ } finish { */
 POV
 scene "copies of glossy objects, textures and pigments by name" << 'POV'
 #declare T = texture { pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
