@@ -30,6 +30,8 @@ static const char help[] =
     "  --gloss auto         every finish with a reflection and phong_size (P is the same) or roughness\n"
     "                       (P is 1/(4 roughness), the lobe of POV-Ray's highlight)\n"
     "  --gloss all=P        every finish that reflects, but for those above\n"
+    "  --from-scene         take POV-Ray's switches from the first comment like // +W640 +H480 +A0.3\n"
+    "                       in the scene's first 50 lines; those on the command line come after it\n"
     "  --resume             skip every image whose file is there already\n"
     "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
     "                       interpolate; needs +W and +H\n"
@@ -49,7 +51,7 @@ struct command {
     const char *scene, *output;
     char *path; /* of the scene */
     struct passes_options passes;
-    bool resume;
+    bool from_scene, resume;
     struct cli_filter filter;
     bool filter_options_used;
     bool help, version;
@@ -73,6 +75,7 @@ static bool take_flag(const char *argument, struct command *command)
         {"-h", &command->help},
         {"--help", &command->help},
         {"--version", &command->version},
+        {"--from-scene", &command->from_scene},
         {"--resume", &command->resume},
     };
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
@@ -162,6 +165,8 @@ static enum result find_scene(struct command *command, const struct povray_switc
     const char *scene = command->scene ? command->scene : switches->file_scene;
     if (!scene)
         return error_set(err, RESULT_USAGE, "no scene: name a .pov file");
+    if (command->from_scene && is_stream(scene))
+        return error_set(err, RESULT_USAGE, "--from-scene reads the scene twice: name its file in place of %s", scene);
     if (is_stream(scene))
         return text_printf(&command->path, err, "%s", scene);
     return povray_switches_find_scene(switches, scene, &command->path, err);
@@ -206,6 +211,28 @@ static enum result take_arguments(int argc, char **argv, struct command *command
     return result;
 }
 
+/* The switches of the scene's comment come before those of the command line: the last one counts. */
+static enum result take_comment(int argc, char **argv, struct command *command, struct povray_switches *switches,
+                                struct error *err)
+{
+    struct error line;
+    char *path = command->path, *text = NULL;
+    povray_switches_free(switches);
+    gloss_choice_free(&command->passes.gloss);
+    enum result result = povray_switches_begin(switches, err);
+    if (!result)
+        result = povray_switches_take_comment(switches, path, &text, err);
+    if (!result)
+        result = take_arguments(argc, argv, command, switches, err);
+    command->path = path;
+    if (!result && !command->filter.quiet) {
+        error_set(&line, RESULT_OK, "%s", text);
+        cli_complain("povgloss", &line);
+    }
+    free(text);
+    return result;
+}
+
 static enum result parse(int argc, char **argv, struct command *command, struct povray_switches *switches,
                          struct error *err)
 {
@@ -217,6 +244,8 @@ static enum result parse(int argc, char **argv, struct command *command, struct 
     if (result || command->help || command->version)
         return result;
     result = find_scene(command, switches, err);
+    if (!result && command->from_scene)
+        result = take_comment(argc, argv, command, switches, err);
     command->passes.scene = command->path;
     command->passes.switches = switches;
     command->passes.frames = frames_plan(&switches->frames);

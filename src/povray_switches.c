@@ -3,13 +3,14 @@
 #include "povray_switches.h"
 
 #include "ini_file.h"
+#include "input_file.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <unistd.h>
 
-enum { MAX_DEPTH = 8 };
+enum { MAX_DEPTH = 8, MAX_COMMENT_LINES = 50 };
 
 static enum result take(struct povray_switches *switches, const char *argument, bool in_file, struct error *err);
 
@@ -225,6 +226,62 @@ void povray_switches_free(struct povray_switches *switches)
 }
 
 /* ---- the scene ---- */
+
+/* The switches of one line of the scene, in *words; none if it is no comment of switches only. */
+static enum result split_comment(const char *line, size_t length, struct text_list *words, struct error *err)
+{
+    static const char blanks[] = " \t\r";
+    const char *at = line + 2, *end = line + length;
+    if (length < 4 || strncmp(line, "//", 2) || !strchr(" \t", *at))
+        return RESULT_OK;
+    enum result result = RESULT_OK;
+    while (!result) {
+        at += strspn(at, blanks);
+        if (at >= end)
+            break;
+        size_t word = strcspn(at, " \t\r\n");
+        result = text_list_add(words, err, "%.*s", (int)word, at);
+        bool is_switch = !result && (words->count == 1 ? strchr("+-", *at) != NULL : true) &&
+                         povray_switch_is(words->texts[words->count - 1]);
+        if (!is_switch) {
+            text_list_free(words);
+            break;
+        }
+        at += word;
+    }
+    return result;
+}
+
+enum result povray_switches_take_comment(struct povray_switches *switches, const char *scene, char **line,
+                                         struct error *err)
+{
+    struct input_file input = {0};
+    struct buffer text = {0};
+    struct text_list words = {0};
+    *line = NULL;
+    enum result result = input_file_read(scene, &input, err);
+    if (!result)
+        result = buffer_add(&text, input.data, input.size, err);
+    const char *at = text.data;
+    for (int number = 1; !result && !words.count && *at && number <= MAX_COMMENT_LINES; number++) {
+        size_t length = strcspn(at, "\n");
+        result = split_comment(at, length, &words, err);
+        if (!result && words.count)
+            result = text_printf(line, err, "%s:%d: %.*s", scene, number, (int)strcspn(at, "\r\n"), at);
+        at += length + (at[length] == '\n');
+    }
+    if (!result && !words.count)
+        result = error_set(err, RESULT_DATA,
+                           "%s: no comment such as // +W640 +H480 +A0.3 in its first %d lines: leave --from-scene out "
+                           "and give POV-Ray's switches yourself",
+                           scene, MAX_COMMENT_LINES);
+    for (int i = 0; !result && i < words.count; i++)
+        result = take(switches, words.texts[i], true, err);
+    text_list_free(&words);
+    buffer_free(&text);
+    input_file_free(&input);
+    return result;
+}
 
 enum result povray_switches_find_scene(const struct povray_switches *switches, const char *name, char **path,
                                        struct error *err)

@@ -1,5 +1,5 @@
-/* POV-Ray's own switches, from povgloss's command line and .ini files: passed through, but for those that the passes
- * decide. */
+/* POV-Ray's own switches, from povgloss's command line, .ini files and a scene's comment: passed through, but for those
+ * that the passes decide. */
 #ifndef POVGLOSS_POVRAY_SWITCHES_H
 #define POVGLOSS_POVRAY_SWITCHES_H
 
@@ -30,6 +30,11 @@ bool povray_switch_is(const char *argument);
 /* Takes one of the command line; an .ini file is read. RESULT_USAGE for those that povgloss decides itself (output file
  * and format; in an .ini file they are passed over) or that passes can't have (header file, shell commands). */
 MUST_CHECK enum result povray_switch_take(struct povray_switches *switches, const char *argument, struct error *err);
+
+/* Takes the switches of the scene's own comment, the first line like `// +W640 +H480 +A0.3` among its first 50, as
+ * POV-Ray's render_scene.sh does; *line is a copy of it behind path and line number. RESULT_DATA where there is none. */
+MUST_CHECK enum result povray_switches_take_comment(struct povray_switches *switches, const char *scene, char **line,
+                                                    struct error *err);
 
 /* The path of a scene as POV-Ray finds it: as it is, with .pov added, or in a library folder; a copy of `name` where
  * there is none. The caller frees it. */

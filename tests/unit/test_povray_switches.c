@@ -274,6 +274,60 @@ static void begin__povrays_own_ini_file__comes_first(void **state)
     unlink(path);
 }
 
+static void comment__line_of_switches__taken(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *line, *passed;
+    } cases[] = {
+        {"// -w320 -h240\n// -w800 -h600 +a0.3\n", ":1: // -w320 -h240", "-w320 -h240 "},
+        {"#version 3.7;\r\n//  +W640 +H480 +A0.3\r\n", ":2: //  +W640 +H480 +A0.3", "+W640 +H480 +A0.3 "},
+        {"//\t+W64 Declare=x=1 +fN -d Output_File_Name=a.png  ", ":1: //\t+W64 Declare=x=1 +fN -d Output_File_Name=a.png  ",
+         "+W64 Declare=x=1 -d "},
+        {"// -- prose\n// - prose\n//+W1\n// +w512 or so\n// with +W9\n +W8\n// +W7 // +W6\n// +W5", ":8: // +W5", "+W5 "},
+        {"//\n// \n// -f", ":3: // -f", ""},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char path[64], *line = NULL, passed[200] = "";
+        struct povray_switches switches;
+        struct error err;
+        write_text(path, ".pov", cases[i].text);
+        begin(&switches);
+        assert_ok(povray_switches_take_comment(&switches, path, &line, &err), err);
+        assert_string_equal(line + strlen(path), cases[i].line);
+        for (int j = 0; j < switches.passed.count; j++) {
+            strcat(passed, switches.passed.texts[j]);
+            strcat(passed, " ");
+        }
+        assert_string_equal(passed, cases[i].passed);
+        free(line);
+        povray_switches_free(&switches);
+        unlink(path);
+    }
+}
+
+static void comment__none_in_50_lines__refused_with_a_cure(void **state)
+{
+    (void)state;
+    char text[200] = "", path[64], *line = NULL;
+    memset(text, '\n', 50);
+    strcpy(text + 50, "// +W640 +H480\n");
+    struct povray_switches switches;
+    struct error err;
+    write_text(path, ".pov", text);
+    begin(&switches);
+    assert_int_equal(povray_switches_take_comment(&switches, path, &line, &err), RESULT_DATA);
+    assert_non_null(strstr(err.text, "--from-scene"));
+    assert_null(line);
+    unlink(path);
+    write_text(path, ".pov", text + 1);
+    assert_ok(povray_switches_take_comment(&switches, path, &line, &err), err);
+    assert_int_equal(switches.width, 640);
+    free(line);
+    povray_switches_free(&switches);
+    unlink(path);
+}
+
 static void find_scene__as_povray_does(void **state)
 {
     (void)state;
@@ -312,6 +366,8 @@ int main(void)
         cmocka_unit_test(take__ini_file__its_lines_in_its_place),
         cmocka_unit_test(take__ini_file_of_itself__refused),
         cmocka_unit_test(begin__povrays_own_ini_file__comes_first),
+        cmocka_unit_test(comment__line_of_switches__taken),
+        cmocka_unit_test(comment__none_in_50_lines__refused_with_a_cure),
         cmocka_unit_test(find_scene__as_povray_does),
     };
     return cmocka_run_group_tests_name("povray_switches", tests, NULL, NULL);
