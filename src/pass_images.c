@@ -5,7 +5,6 @@
 #include "eye.h"
 #include "gamma.h"
 #include "interpolate.h"
-#include "pass_scene.h"
 #include "png_io.h"
 #include "position_code.h"
 
@@ -13,10 +12,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum result pass_image_path(const struct pass_images *images, enum pass_id id, char **path, struct error *err)
+{
+    return text_printf(path, err, "%s/%s/image%s.%s", images->folder, pass_table[id].name, images->number,
+                       pass_table[id].codes ? "png" : "exr");
+}
+
 static enum result read_codes(const struct pass_images *images, enum pass_id id, struct image *image, struct error *err)
 {
     char *path;
-    enum result result = text_printf(&path, err, "%s/%s/image.png", images->folder, pass_table[id].name);
+    enum result result = pass_image_path(images, id, &path, err);
     if (result)
         return result;
     result = png_read(path, image, err);
@@ -29,7 +34,7 @@ static enum result read_radiance(const struct pass_images *images, enum pass_id 
 {
     struct exr_contents contents = {0};
     char *path;
-    enum result result = text_printf(&path, err, "%s/%s/image.exr", images->folder, pass_table[id].name);
+    enum result result = pass_image_path(images, id, &path, err);
     if (result)
         return result;
     result = exr_read(path, &contents, err);

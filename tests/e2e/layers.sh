@@ -5,8 +5,8 @@
 
 rows='error
 interrupt cpu mem lobe gamma
-image gbuffer weights bands input_file output_file
-exr_io png_io position_code eye interpolate filter_kernel child scene_lexer gloss_choice povray_switches work_folder
+image gbuffer weights bands input_file output_file frames
+exr_io png_io position_code eye interpolate filter_kernel child scene_lexer gloss_choice ini_file povray_switches work_folder
 passes_file image_file filter compose povray scene_rewrite
 pass_scene pass_images
 passes
