@@ -18,6 +18,14 @@ enum result pass_image_path(const struct pass_images *images, enum pass_id id, c
                        pass_table[id].codes ? "png" : "exr");
 }
 
+/* Of a mixed texture: a glossy surface with a smaller share isn't glossy. */
+#define LEAST_SHARE 0.02f
+
+static bool same_size(const struct image *a, const struct image *b)
+{
+    return a->pixels && b->pixels && a->width == b->width && a->height == b->height;
+}
+
 static enum result read_codes(const struct pass_images *images, enum pass_id id, struct image *image, struct error *err)
 {
     char *path;
@@ -54,13 +62,17 @@ static enum result read_radiance(const struct pass_images *images, enum pass_id 
     return result;
 }
 
+/* `exponents`: the image of that pass, whose third channel is the share that a glossy surface has in a mixed texture; NULL or
+ * empty: none is mixed. */
 static enum result read_coded(const struct pass_images *images, enum pass_id high_id, enum pass_id low_id,
-                              struct image *decoded, struct error *err)
+                              const struct image *exponents, struct image *decoded, struct error *err)
 {
     struct image high = {0}, low = {0};
     enum result result = read_codes(images, high_id, &high, err);
     if (!result && low_id != high_id)
         result = read_codes(images, low_id, &low, err);
+    if (!result && exponents && same_size(exponents, &high) && same_size(exponents, &low))
+        position_code_unmix(&high, &low, exponents, 2);
     if (!result)
         result = position_code_decode(&high, low_id != high_id ? &low : NULL, decoded, err);
     image_free(&high);
@@ -79,6 +91,19 @@ static void scale_reflectance(struct image *reflectance, double gamma)
         }
 }
 
+/* A mixed texture dims the mirror by its share, as it dims the reflectance. */
+static void unmix_specular(struct image *specular, const struct image *exponents, double gamma)
+{
+    for (int channel = 0; same_size(specular, exponents) && channel < 3; channel++)
+        for (int y = 0; y < specular->height; y++) {
+            const float *share = image_row(exponents, 2, y);
+            float *row = image_row(specular, channel, y);
+            for (int x = 0; x < specular->width; x++)
+                if (share[x] > LEAST_SHARE && share[x] < 0.9999f)
+                    row[x] = (float)gamma_decode(gamma, gamma_encode(gamma, (double)row[x]) / (double)share[x]);
+        }
+}
+
 /* The exponent of a pixel whose code is (high, low, 1), see mirror_exponent. */
 static float decode_exponent(double high, double low)
 {
@@ -86,16 +111,9 @@ static float decode_exponent(double high, double low)
     return (float)fmax(expm1(128 * code * log(2)), 1e-6);
 }
 
-/* Codes of the exponents, where the scene has several; else an image of the positions' size. */
-static enum result read_exponents(const struct pass_images *images, struct gbuffer *gbuffer, struct image *codes,
-                                  struct error *err)
+static enum result alloc_exponents(struct gbuffer *gbuffer, const struct image *codes, struct error *err)
 {
-    if (images->scene->exponent < 0) {
-        enum result result = read_codes(images, PASS_EXPONENT, codes, err);
-        if (result)
-            return result;
-    }
-    const struct image *like = images->scene->exponent < 0 ? codes : &gbuffer->position;
+    const struct image *like = codes->pixels ? codes : &gbuffer->position;
     return image_alloc(&gbuffer->phong, like->width, like->height, 1, err);
 }
 
@@ -114,10 +132,11 @@ static void fill_exponents(struct gbuffer *gbuffer, double single, const struct 
         for (int x = 0; x < gbuffer->phong.width; x++) {
             bool glossy = any_nonzero(&gbuffer->position, x, y) && any_nonzero(&gbuffer->endpoint, x, y);
             float exponent = 0;
+            double share = codes->pixels ? (double)image_row(codes, 2, y)[x] : 1;
             if (glossy && single >= 0)
                 exponent = (float)fmax(single, 1e-6);
-            else if (glossy && image_row(codes, 2, y)[x] > 0.5f)
-                exponent = decode_exponent(image_row(codes, 0, y)[x], image_row(codes, 1, y)[x]);
+            else if (glossy && share > (double)LEAST_SHARE)
+                exponent = decode_exponent((double)image_row(codes, 0, y)[x] / share, (double)image_row(codes, 1, y)[x] / share);
             image_row(&gbuffer->phong, 0, y)[x] = exponent >= 1e20f ? INFINITY : exponent;
         }
 }
@@ -244,23 +263,27 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     enum result result = read_radiance(images, PASS_BASE, &gbuffer->base, err);
     if (result || !images->scene->glossy)
         return result ? result : make_dull(gbuffer, err);
-    result = read_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
+    if (pass_needed(images->scene, PASS_EXPONENT))
+        result = read_codes(images, PASS_EXPONENT, &codes, err);
+    if (!result)
+        result = read_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
     if (!result)
         result = read_radiance(images, PASS_REFLECTANCE, &gbuffer->reflectance, err);
     if (!result)
-        result = read_coded(images, PASS_POSITION, PASS_POSITION_LOW, &gbuffer->position, err);
+        result = read_coded(images, PASS_POSITION, PASS_POSITION_LOW, NULL, &gbuffer->position, err);
     if (!result)
         result = drop_w(&gbuffer->position, err);
     if (!result)
-        result = read_coded(images, PASS_ENDPOINT, PASS_ENDPOINT_LOW, &gbuffer->endpoint, err);
+        result = read_coded(images, PASS_ENDPOINT, PASS_ENDPOINT_LOW, &codes, &gbuffer->endpoint, err);
     if (!result)
-        result = read_coded(images, PASS_DIRECTION, PASS_DIRECTION, &directions, err);
+        result = read_coded(images, PASS_DIRECTION, PASS_DIRECTION, NULL, &directions, err);
     if (!result)
-        result = read_exponents(images, gbuffer, &codes, err);
+        result = alloc_exponents(gbuffer, &codes, err);
     if (!result)
         result = check_sizes(images, gbuffer, &directions, err);
     if (!result) {
         fill_exponents(gbuffer, images->scene->exponent, &codes);
+        unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
         scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
         eye_find(gbuffer, &directions);

@@ -220,12 +220,15 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
 {
     enum result result = buffer_add_text(
         text,
-        "#macro povgloss_dark() ambient 0 emission 0 diffuse 0 specular 0 phong 0 #end\n"
+        "#macro povgloss_dark() ambient 0 emission 0 diffuse 0 specular 0 phong 0 irid { 0 } #end\n"
         "#declare povgloss_pigment = pigment { rgb 0 };\n"
         "#macro povgloss_hide(povgloss_s)\n"
-        "  #if (povgloss_exponent(povgloss_s) >= 0 & povgloss_clear(povgloss_s.t)) pigment { rgb 0 } #end\n"
+        "  #if (povgloss_exponent(povgloss_s) >= 0 & (povgloss_mirrors | povgloss_clear(povgloss_s.t))) pigment { rgb 0 } "
+        "#end\n"
         "#end\n",
         err);
+    if (!result)
+        result = buffer_printf(text, err, "#declare povgloss_mirrors = %d;\n", pass->mirror_colour != NULL);
     if (!result && pass->mirror_colour)
         result = buffer_printf(text, err, "#macro povgloss_mirror_colour() %s #end\n", pass->mirror_colour);
     if (!result)
@@ -303,12 +306,7 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
 static enum result add_separation(const struct scene *scene, struct buffer *text, struct error *err)
 {
     enum result result = scene_restore_names(scene, text, err);
-    if (result)
-        return result;
-    return buffer_add_text(text,
-                           "#default { pigment { rgb 0 } finish { ambient 0.1 diffuse 0.6 emission 0 specular 0 phong 0 "
-                           "reflection { 0 } } }\n",
-                           err);
+    return result ? result : buffer_add_text(text, "#default { texture { povgloss_default } }\n", err);
 }
 
 static enum result add_coded_sky(const struct pass *pass, struct buffer *text, struct error *err)
@@ -345,6 +343,8 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     if (!result)
         result = buffer_add_text(
             text, "#macro povgloss_nothing() sphere { 0, 1e-6 no_image no_reflection no_shadow no_radiosity } #end\n", err);
+    if (!result && has_second_part(scene, id))
+        result = buffer_add_text(text, "#declare povgloss_default = texture { pigment { rgb 0 } };\n", err);
     /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
     if (!result)
         result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass->full_size ? "" : "aperture 0");
@@ -364,6 +364,13 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     if (!result && pass->technical)
         result = buffer_add_text(text, "global_settings { max_trace_level 20 adc_bailout 1/255 }\n", err);
     return result;
+}
+
+bool pass_needed(const struct scene *scene, enum pass_id id)
+{
+    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes)
+        return false;
+    return id == PASS_BASE || scene->glossy;
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])

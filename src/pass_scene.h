@@ -46,6 +46,10 @@ struct pass {
 
 extern const struct pass pass_table[PASS_COUNT];
 
+/* Whether the scene requires the pass: where nothing is glossy the base alone; exponents where there are several, or where a
+ * texture may mix a glossy surface with another one. */
+bool pass_needed(const struct scene *scene, enum pass_id id);
+
 /* Marks the kinds of copies that the pass includes. */
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT]);
 

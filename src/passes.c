@@ -53,12 +53,12 @@ static enum result write_empty_ini(const struct passes *passes, struct error *er
 
 static enum result write_scenes(struct passes *passes, struct error *err)
 {
-    bool needed[SCENE_COPY_COUNT] = {false}, several = passes->scene.exponent < 0;
+    bool needed[SCENE_COPY_COUNT] = {false};
     enum result result = write_empty_ini(passes, err);
     if (!result)
         result = work_folder_add(&passes->folder, "copies", err);
     for (int id = 0; !result && id < PASS_COUNT; id++) {
-        if ((id == PASS_EXPONENT && !several) || (id != PASS_BASE && !passes->scene.glossy))
+        if (!pass_needed(&passes->scene, (enum pass_id)id))
             continue;
         passes->ids[passes->job_count++] = (enum pass_id)id;
         pass_copies(&passes->scene, (enum pass_id)id, needed);

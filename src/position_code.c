@@ -45,6 +45,26 @@ static double combine(double high, double low)
     return (round(LOW_STEPS * high - fraction) + fraction) / LOW_STEPS;
 }
 
+/* The low digits that go with v. */
+static double low_digits(double v)
+{
+    return LOW_START + LOW_SPAN * (LOW_STEPS * v - floor(LOW_STEPS * v));
+}
+
+void position_code_unmix(struct image *high, struct image *low, const struct image *share, int channel)
+{
+    const float least = 0.02f, enough = 0.3f, whole = 0.9999f;
+    for (int y = 0; y < high->height; y++)
+        for (int x = 0; x < high->width; x++) {
+            float part = image_row(share, channel, y)[x];
+            for (int axis = 0; part > least && part < whole && axis < 3; axis++) {
+                float *digits = &image_row(high, axis, y)[x], *rest = &image_row(low, axis, y)[x];
+                *digits /= part;
+                *rest = part < enough ? (float)low_digits((double)*digits) : *rest / part;
+            }
+        }
+}
+
 static void decode_pixel(const double v[3], float decoded[4])
 {
     double q[3], radius = 0;

@@ -22,4 +22,9 @@ MUST_CHECK enum result position_code_pigment(struct buffer *text, bool direction
 MUST_CHECK enum result position_code_decode(const struct image *high, const struct image *low, struct image *decoded,
                                             struct error *err);
 
+/* Undoes the mixing of coded surfaces with black ones: where `share` (the plane of that channel, 0 to 1) says which part of a
+ * pixel's texture was coded, both images of digits are divided by it. Of a share below 0.3 the high digits alone are kept,
+ * about 1e-3 of the distance; one below 0.02 is left as it is. The three images are of one size. */
+void position_code_unmix(struct image *high, struct image *low, const struct image *share, int channel);
+
 #endif

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { MAX_CONDITIONALS = 256 };
+
 static bool is_word_start(unsigned char c)
 {
     return isalpha(c) || c == '_' || c >= 0x80;
@@ -146,44 +148,124 @@ static enum result next_token(struct lexer *lexer, struct token *token, struct e
     return result;
 }
 
-/* Pairs brackets in one walk over a stack that is threaded through the `match` fields. A closing bracket that doesn't fit
- * the innermost open one stays unpaired. */
-static void match_brackets(const char *text, struct token_list *list)
+/* Brackets that are open, innermost last: indices of tokens, in a buffer. */
+static int stack_count(const struct buffer *stack)
 {
-    int open = -1, brace = -1;
-    for (int i = 0; i < list->count; i++) {
+    return (int)(stack->size / sizeof(int));
+}
+
+static int stack_top(const struct buffer *stack)
+{
+    return stack->size ? ((const int *)(const void *)stack->data)[stack_count(stack) - 1] : -1;
+}
+
+static enum result stack_copy(struct buffer *to, const struct buffer *from, struct error *err)
+{
+    to->size = 0;
+    return from->size ? buffer_add(to, from->data, from->size, err) : RESULT_OK;
+}
+
+/* A conditional: the brackets that were open before it, and after a branch that opened or closed some. */
+struct branches {
+    struct buffer before, after;
+    bool changed;
+};
+
+static bool in_words(const struct buffer *source, const struct token *token, const char *const *words)
+{
+    for (; *words; words++)
+        if (token_is(source, token, TOKEN_DIRECTIVE, *words))
+            return true;
+    return false;
+}
+
+/* A bracket that an earlier branch opened in the place of one of this branch closes with it: twin[earlier] = later. */
+static enum result end_branch(struct branches *branches, const struct buffer *open, int *twin, struct error *err)
+{
+    if (stack_count(open) == stack_count(&branches->before))
+        return RESULT_OK;
+    const int *earlier = (const int *)(const void *)branches->after.data, *later = (const int *)(const void *)open->data;
+    int count = stack_count(open);
+    for (int i = stack_count(&branches->before); branches->changed && stack_count(&branches->after) == count && i < count; i++)
+        twin[earlier[i]] = later[i];
+    branches->changed = true;
+    return stack_copy(&branches->after, open, err);
+}
+
+/* Of a conditional's branches one is parsed: each begins with the brackets that were open before it, and what follows it with
+ * those of a branch that opened or closed some. */
+static enum result follow_branches(const struct buffer *source, const struct token *token, bool switch_default,
+                                   struct branches *conditionals, int *depth, struct buffer *open, int *twin,
+                                   struct error *err)
+{
+    static const char *const openers[] = {"if", "ifdef", "ifndef", "while", "for", "switch", "macro", NULL};
+    static const char *const others[] = {"else", "elseif", "case", "range", NULL};
+    enum result result = RESULT_OK;
+    if (in_words(source, token, openers) && *depth < MAX_CONDITIONALS) {
+        struct branches *branches = &conditionals[(*depth)++];
+        branches->changed = false;
+        return stack_copy(&branches->before, open, err);
+    }
+    struct branches *branches = *depth > 0 ? &conditionals[*depth - 1] : NULL;
+    if (branches && (switch_default || in_words(source, token, others))) {
+        result = end_branch(branches, open, twin, err);
+        return result ? result : stack_copy(open, &branches->before, err);
+    }
+    if (branches && token_is(source, token, TOKEN_DIRECTIVE, "end")) {
+        --*depth;
+        result = end_branch(branches, open, twin, err);
+        if (!result && branches->changed)
+            result = stack_copy(open, &branches->after, err);
+    }
+    return result;
+}
+
+/* Pairs brackets in one walk. A closing bracket that doesn't fit the innermost open one stays unpaired. */
+static enum result match_brackets(const struct buffer *source, struct token_list *list, struct error *err)
+{
+    struct buffer open = {0};
+    struct branches *conditionals = calloc(MAX_CONDITIONALS, sizeof *conditionals);
+    int *twin = calloc((size_t)list->count, sizeof *twin);
+    enum result result = conditionals && twin ? RESULT_OK : error_memory(err, (double)list->count * sizeof *twin);
+    int depth = 0;
+    for (int i = 0; !result && i < list->count; i++) {
         struct token *token = &list->tokens[i];
+        const char *text = source->data;
+        if (token->kind == TOKEN_DIRECTIVE) {
+            const struct token *next = &list->tokens[i + 1];
+            bool block = next->kind == TOKEN_MARK && text[next->begin] == '{';
+            bool switch_default = !block && token_is(source, token, TOKEN_DIRECTIVE, "default");
+            result = follow_branches(source, token, switch_default, conditionals, &depth, &open, twin, err);
+        }
         char c = token->kind == TOKEN_MARK ? text[token->begin] : 0;
-        if (c == '}' || c == ')') {
-            char opening = c == '}' ? '{' : '(';
-            if (open >= 0 && text[list->tokens[open].begin] == opening) {
-                int outer = list->tokens[open].match;
-                if (c == '}')
-                    brace = list->tokens[open].parent;
-                list->tokens[open].match = i;
-                token->match = open;
-                open = outer;
-            }
+        int top = stack_top(&open);
+        if ((c == '}' || c == ')') && top >= 0 && text[list->tokens[top].begin] == (c == '}' ? '{' : '(')) {
+            list->tokens[top].match = i;
+            token->match = top;
+            open.size -= sizeof(int);
         }
-        token->parent = brace;
-        if (c == '{' || c == '(') {
-            token->match = open;
-            open = i;
-            if (c == '{')
-                brace = i;
-        }
+        top = stack_top(&open);
+        token->parent = top >= 0 && text[list->tokens[top].begin] != '{' ? list->tokens[top].parent : top;
+        if (!result && (c == '{' || c == '('))
+            result = buffer_add(&open, &i, sizeof i, err);
     }
-    while (open >= 0) {
-        int outer = list->tokens[open].match;
-        list->tokens[open].match = -1;
-        open = outer;
+    for (int i = 0; conditionals && i < MAX_CONDITIONALS; i++) {
+        buffer_free(&conditionals[i].before);
+        buffer_free(&conditionals[i].after);
     }
+    free(conditionals);
+    buffer_free(&open);
+    for (int i = list->count - 1; !result && i >= 0; i--)
+        if (twin[i] && list->tokens[i].match < 0)
+            list->tokens[i].match = list->tokens[twin[i]].match;
+    free(twin);
     /* What isn't closed isn't around anything. */
-    for (int i = 0; i < list->count; i++) {
+    for (int i = 0; !result && i < list->count; i++) {
         int parent = list->tokens[i].parent;
         if (parent >= 0 && list->tokens[parent].match < 0)
             list->tokens[i].parent = list->tokens[parent].parent;
     }
+    return result;
 }
 
 enum result scene_lex(const char *name, const struct buffer *source, struct token_list *list, struct error *err)
@@ -205,8 +287,7 @@ enum result scene_lex(const char *name, const struct buffer *source, struct toke
     } while (token.kind != TOKEN_END);
     list->tokens = (struct token *)(void *)tokens.data;
     list->count = (int)(tokens.size / sizeof token);
-    match_brackets(source->data, list);
-    return RESULT_OK;
+    return match_brackets(source, list, err);
 }
 
 void token_list_free(struct token_list *list)

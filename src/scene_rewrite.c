@@ -33,6 +33,7 @@ enum statements {
 struct rules {
     const char *name;
     enum statements statements;
+    bool in_union;        /* the copy is inside a union */
     bool lights;
     bool marks;           /* povgloss_begin and povgloss_end in finishes */
     bool pigments;        /* pigments become povgloss_pigment, or the parts of it that hide what is behind them */
@@ -43,16 +44,16 @@ struct rules {
 };
 
 static const struct rules copy_rules[SCENE_COPY_COUNT] = {
-    [SCENE_COPY_PLAIN] = {"plain", STATEMENTS_BREAK, .lights = true},
+    [SCENE_COPY_PLAIN] = {"plain", STATEMENTS_BREAK, .in_union = true, .lights = true},
     [SCENE_COPY_BASE] = {"base", STATEMENTS_STAY, .lights = true, .marks = true},
-    [SCENE_COPY_BASE_FIRST] = {"base1", STATEMENTS_BREAK, .lights = true, .marks = true, .places = true},
-    [SCENE_COPY_BASE_SECOND] = {"base2", STATEMENTS_DROP, .marks = true, .places = true},
-    [SCENE_COPY_MIRROR] = {"mirror", STATEMENTS_CAMERA, .marks = true, .pigments = true, .covers = true,
+    [SCENE_COPY_BASE_FIRST] = {"base1", STATEMENTS_BREAK, .in_union = true, .lights = true, .marks = true, .places = true},
+    [SCENE_COPY_BASE_SECOND] = {"base2", STATEMENTS_DROP, .in_union = true, .marks = true, .places = true},
+    [SCENE_COPY_MIRROR] = {"mirror", STATEMENTS_CAMERA, .in_union = true, .marks = true, .pigments = true, .covers = true,
                            .technical = true},
-    [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .marks = true, .pigments = true, .covers = true,
+    [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .in_union = true, .marks = true, .pigments = true, .covers = true,
                                   .technical = true},
-    [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .marks = true, .covers = true},
-    [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .coded = true, .covers = true, .technical = true},
+    [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .in_union = true, .marks = true, .covers = true},
+    [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .in_union = true, .coded = true, .covers = true, .technical = true},
 };
 
 static bool in_list(const struct scene_file *file, int token, const char *const *words)
@@ -327,6 +328,8 @@ static bool is_layered(const struct scene_file *file, int name)
 /* What may follow the = of a name that can be made glossy. */
 static const char *const glossy_words[] = {"finish", "texture", "material", NULL};
 
+static const char *const mixing_words[] = {"texture_map", "average", "blob", "texture_list", "smooth_triangle", NULL};
+
 /* The items of a finish whose values are the lobe of a highlight. */
 static const char *const highlight_words[] = {"phong_size", "roughness", NULL};
 
@@ -352,6 +355,8 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
         scene->plain_mirrors = true;
     if (in_list(file, token, highlight_words))
         scene->highlights = true;
+    if (in_list(file, token, mixing_words))
+        scene->mixes = true;
     if (is_word(file, token, "aperture"))
         scene->focal_blur = true;
     if (is_word(file, token, "assumed_gamma"))
@@ -451,7 +456,8 @@ static enum result count_clear(struct scene *scene, struct error *err)
         if (!file->clear)
             return error_memory(err, (double)size);
         for (int token = 0; token < file->list.count; token++)
-            file->clear[token + 1] = file->clear[token] + names_clear(scene, file, token);
+            file->clear[token + 1] = file->clear[token] + (names_clear(scene, file, token) ||
+                                                            find_name(&scene->parameters, file, token) >= 0);
     }
     return RESULT_OK;
 }
@@ -488,14 +494,34 @@ static int end_of_macro(const struct scene_file *file, int token)
     return token;
 }
 
-/* The parameters of a macro may be anything. */
 static enum result note_parameters(struct scene *scene, const struct scene_file *file, int name, struct error *err)
 {
     enum result result = RESULT_OK;
     int last = is_mark(file, name + 1, "(") ? file->list.tokens[name + 1].match : -1;
     for (int token = name + 2; !result && token < last; token++)
         if (file->list.tokens[token].kind == TOKEN_WORD)
-            result = add_name(&scene->clear, file, token, err);
+            result = add_name(&scene->parameters, file, token, err);
+    return result;
+}
+
+/* Notes whether the name that the directive at `token` declares may be transparent: what a parameter of a macro gives to it
+ * is as unknown as the parameter. */
+static enum result note_clear_name(struct scene *scene, const struct scene_file *file, int token, struct error *err)
+{
+    bool macro = is_directive(file, token, "macro"), clear = false, unknown = false;
+    int name = declared_name(file, token);
+    if (name < 0 || file->list.tokens[name].kind != TOKEN_WORD)
+        return RESULT_OK;
+    enum result result = macro ? note_parameters(scene, file, name, err) : RESULT_OK;
+    int last = macro ? end_of_macro(file, token) : last_of_value(file, name + 1);
+    for (int word = name + 1; word <= last; word++) {
+        clear |= names_clear(scene, file, word);
+        unknown |= !macro && find_name(&scene->parameters, file, word) >= 0;
+    }
+    if (!result && clear)
+        result = add_name(&scene->clear, file, name, err);
+    if (!result && unknown)
+        result = add_name(&scene->parameters, file, name, err);
     return result;
 }
 
@@ -504,26 +530,13 @@ static enum result note_parameters(struct scene *scene, const struct scene_file 
 static enum result note_clear_names(struct scene *scene, struct error *err)
 {
     enum result result = RESULT_OK;
-    for (size_t before = scene->clear.size + 1; !result && scene->clear.size != before;) {
-        before = scene->clear.size;
-        for (int i = 0; i < scene->file_count; i++) {
-            const struct scene_file *file = &scene->files[i];
-            for (int token = 0; !result && token < file->list.count - 1; token++) {
-                bool macro = is_directive(file, token, "macro");
-                int name = declared_name(file, token);
-                if (name < 0 || file->list.tokens[name].kind != TOKEN_WORD)
-                    continue;
-                if (macro)
-                    result = note_parameters(scene, file, name, err);
-                int last = macro ? end_of_macro(file, token) : last_of_value(file, name + 1);
-                bool clear = find_name(&scene->clear, file, name) >= 0, found = false;
-                for (int word = name + 1; !clear && !found && word <= last; word++)
-                    found = names_clear(scene, file, word);
-                if (!result && found)
-                    result = add_name(&scene->clear, file, name, err);
-            }
-        }
-    }
+    size_t before;
+    do {
+        before = scene->clear.size + scene->parameters.size;
+        for (int i = 0; i < scene->file_count; i++)
+            for (int token = 0; !result && token < scene->files[i].list.count - 1; token++)
+                result = note_clear_name(scene, &scene->files[i], token, err);
+    } while (!result && scene->clear.size + scene->parameters.size != before);
     return result;
 }
 
@@ -590,6 +603,7 @@ void scene_free(struct scene *scene)
     buffer_free(&scene->layered);
     buffer_free(&scene->glossable);
     buffer_free(&scene->clear);
+    buffer_free(&scene->parameters);
     *scene = (struct scene){0};
 }
 
@@ -603,6 +617,8 @@ struct writer {
     size_t at;       /* the source up to here is written */
     int value_name;  /* the name in the last #declare of a block */
     int value_end;   /* the token after that block: a texture there is a further layer */
+    int end;         /* the token where the block ends that is being written; branches of a conditional may open it, too */
+    int object_end;  /* the same of the last block that write_object wrote */
     bool given;      /* in the declaration of a name that the user chose to be glossy */
     bool in_macro;
     int conditions;  /* depth of #if, #while, #for, #switch, #macro; which of them are macros */
@@ -691,6 +707,9 @@ static enum result replace_block(struct writer *writer, int token, int last, con
     if (!result)
         result = is_word(writer->file, token, "interior_texture") ? replace(writer, token, token, "texture", err)
                                                                   : RESULT_OK;
+    for (int i = token + 2; !result && i < last; i++)
+        if (opens_block(writer->file, i) && writer->file->list.tokens[i + 1].match == last) /* opened by another branch, too */
+            result = insert_before(writer, i, "#declare povgloss_dropped = ", err);
     if (!result)
         result = insert_after(writer, last, "; ", err);
     return result ? result : buffer_add_text(&writer->out, text, err);
@@ -725,6 +744,22 @@ static enum result inherit_state(struct writer *writer, int token, const char *m
     enum result result = copy_to(writer, writer->file->list.tokens[token].end, err);
     return result ? result
                   : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) %s(povgloss_of_%d) #end", name, macro, name);
+}
+
+/* A pigment inside one of these is a pattern or a value, not what an object looks like. */
+static const char *const pattern_words[] = {"function", "pigment",  "pigment_map", "pigment_pattern", "normal",
+                                            "normal_map", "slope_map", "density",   "density_map",     "sky_sphere",
+                                            "camera",   NULL};
+
+/* What a block that describes a surface may be part of: then it stays with that. */
+static const char *const surface_words[] = {"texture", "material", "texture_map", NULL};
+
+static bool inside_any(const struct scene_file *file, int token, const char *const *keywords)
+{
+    bool found = false;
+    for (; !found && *keywords; keywords++)
+        found = inside(file, token, *keywords);
+    return found;
 }
 
 /* Whether it matters where this block is transparent. */
@@ -765,8 +800,7 @@ static enum result write_cover(struct writer *writer, int token, int last, struc
                                   mentions(writer->file, token + 2, last, uv));
 }
 
-/* A finish that is declared by a name leaves automatic gloss to the textures and objects that use it. */
-static enum result write_finish(struct writer *writer, int token, int last, bool named, struct error *err)
+static enum result begin_finish(struct writer *writer, int token, struct error *err)
 {
     int brace = writer->file->list.tokens[token].parent, cover = covered_sibling(writer, token);
     bool in_texture = brace > 0 && is_word(writer->file, brace - 1, "texture");
@@ -780,6 +814,14 @@ static enum result write_finish(struct writer *writer, int token, int last, bool
     /* An element of a filled array comes unmarked. */
     if (!result && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
         result = buffer_add_text(&writer->out, " #declare povgloss_reflects = 1; ", err);
+    return result;
+}
+
+/* A finish that is declared by a name leaves automatic gloss to the textures and objects that use it. */
+static enum result write_finish(struct writer *writer, int token, int last, bool named, struct error *err)
+{
+    enum result result = begin_finish(writer, token, err);
+    int cover = covered_sibling(writer, token);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
@@ -799,15 +841,19 @@ static bool is_layer(const struct scene_file *file, int token)
 /* A texture with one of these takes no finish at its end, or needs none. */
 static const char *const finish_carriers[] = {"finish", "texture", "texture_map", "tiles", "material_map", NULL};
 
+static enum result begin_texture(struct writer *writer, int token, bool upper, struct error *err)
+{
+    enum result result = insert_after(writer, token + 1, upper ? " povgloss_upper_layer() " : " povgloss_layer() ", err);
+    if (!result)
+        result = inherit_state(writer, token + 2, "povgloss_of_texture", err);
+    return result ? result : buffer_add_text(&writer->out, " povgloss_layered() ", err);
+}
+
 static enum result write_texture(struct writer *writer, int token, int last, bool upper, struct error *err)
 {
     const struct rules *rules = writer->rules;
     bool cover = tracks(writer, token + 2, last), plain = !mentions(writer->file, token + 2, last, finish_carriers + 1);
-    enum result result = insert_after(writer, token + 1, upper ? " povgloss_upper_layer() " : " povgloss_layer() ", err);
-    if (!result)
-        result = inherit_state(writer, token + 2, "povgloss_of_texture", err);
-    if (!result)
-        result = buffer_add_text(&writer->out, " povgloss_layered() ", err);
+    enum result result = begin_texture(writer, token, upper, err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result && rules->marks && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
@@ -829,15 +875,32 @@ static enum result remember(struct writer *writer, int name_token, int last, str
     int name = find_name(&writer->scene->names, writer->file, name_token), end = last + is_mark(writer->file, last + 1, ";");
     if (name < 0 || is_word(writer->file, last + 1, "texture"))
         return RESULT_OK;
+    const char *declare = is_directive(writer->file, name_token - 1, "local") ? "#local" : "#declare";
     enum result result = copy_to(writer, writer->file->list.tokens[end].end, err);
     if (!result)
-        result = buffer_printf(&writer->out, err, " #declare povgloss_of_%d = povgloss_last; ", name);
+        result = buffer_printf(&writer->out, err, " %s povgloss_of_%d = povgloss_last; ", declare, name);
     if (!result && writer->rules->coded)
         result = buffer_printf(&writer->out, err,
-                               " #ifdef (povgloss_interior) #declare povgloss_interior_of_%d = interior { "
-                               "povgloss_interior } #end ",
-                               name);
+                               " #ifdef (povgloss_interior) %s povgloss_interior_of_%d = interior { povgloss_interior } "
+                               "#end ",
+                               declare, name);
     return result;
+}
+
+/* After `#declare X = Y;`: X takes over the state of Y. */
+static enum result copy_state(struct writer *writer, int directive, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int name = declared_name(file, directive), semicolon = name + 3;
+    if (name < 0 || !is_mark(file, name + 1, "=") || !is_mark(file, semicolon, ";"))
+        return RESULT_OK;
+    int to = find_name(&writer->scene->names, file, name), from = find_name(&writer->scene->names, file, name + 2);
+    if (to < 0 || from < 0)
+        return RESULT_OK;
+    enum result result = insert_after(writer, semicolon, "", err);
+    return result ? result
+                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) %s povgloss_of_%d = povgloss_of_%d; #end ", from,
+                                  is_directive(file, directive, "local") ? "#local" : "#declare", to, from);
 }
 
 /* A material in a copy without textures: its interior is kept for the object, which may be clear. */
@@ -884,27 +947,17 @@ static const char *const statement_words[] = {"camera",     "global_settings", "
 static const char *const texture_words[] = {"texture",  "pigment", "finish", "normal", "material", "interior_texture",
                                             NULL};
 
-/* A light that the copy must not have twice goes, unless it brings an object along (looks_like): then it stays, and fades to
- * nothing within any distance; a declared light takes no such item and stays in a group in which it lights nothing else. */
-static enum result write_light(struct writer *writer, int token, int last, struct error *err)
+/* A light that the copy must not have twice goes, or if it may be part of something else (it is declared, or fills an array,
+ * or brings an object along by looks_like) it fades to nothing within any distance. */
+static enum result write_light(struct writer *writer, int token, int last, bool value, struct error *err)
 {
-    const struct scene_file *file = writer->file;
-    if (find_name(&writer->scene->lights, file, token + 2) >= 0) {
-        enum result result = insert_before(writer, token, "light_group { ", err);
-        return result ? result : insert_after(writer, last, " global_lights on }", err);
-    }
-    bool stays = has_effects(writer, token + 1, last);
-    for (int i = token + 2; i < last; i++)
-        stays |= is_word(file, i, "looks_like");
-    if (!stays)
+    static const char *const looks_like[] = {"looks_like", NULL};
+    if (find_name(&writer->scene->names, writer->file, token + 2) >= 0)
+        return copy_to(writer, writer->file->list.tokens[last].end, err);
+    if (!value && !has_effects(writer, token + 1, last) && !mentions(writer->file, token + 2, last, looks_like))
         return replace(writer, token, last, "", err);
     enum result result = write_tokens(writer, token + 2, last, err);
     return result ? result : insert_before(writer, last, " fade_distance 1e-9 fade_power 20 ", err);
-}
-
-static bool is_declared_light(const struct writer *writer, int token)
-{
-    return is_word(writer->file, token, "object") && find_name(&writer->scene->lights, writer->file, token + 2) >= 0;
 }
 
 /* A material begins in the state of the declared one that it names; its textures then give theirs. */
@@ -933,6 +986,9 @@ static enum result write_object(struct writer *writer, int token, int last, int 
     enum result result = name >= 0 ? RESULT_OK : insert_before(writer, token, "#declare povgloss_object = ", err);
     if (!result)
         result = insert_after(writer, token + 1, " povgloss_enter() ", err);
+    if (last == writer->object_end)
+        return result;
+    writer->object_end = last;
     if (!result && name >= 0)
         result = buffer_printf(&writer->out, err, "#declare povgloss_before_%d = povgloss_counts; ", index);
     if (!result && part >= 0) {
@@ -944,7 +1000,7 @@ static enum result write_object(struct writer *writer, int token, int last, int 
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
-        result = insert_after(writer, last, "; ", err);
+        result = insert_after(writer, last, " ", err);
     if (result || name < 0)
         return result ? result : buffer_add_text(&writer->out, "povgloss_place() ", err);
     return buffer_printf(&writer->out, err, "povgloss_leave() #declare povgloss_holds_%d = povgloss_counts - povgloss_before_%d; ",
@@ -1036,18 +1092,6 @@ static bool layers_may_be_clear(const struct writer *writer, int token)
     return clear;
 }
 
-/* What a block that describes a surface may be part of: then it stays with that. */
-static const char *const surface_words[] = {"texture",    "material", "texture_map", "pigment",
-                                            "pigment_map", "normal",   "normal_map",  NULL};
-
-static bool inside_surface(const struct scene_file *file, int token)
-{
-    bool found = false;
-    for (int i = 0; !found && surface_words[i]; i++)
-        found = inside(file, token, surface_words[i]);
-    return found;
-}
-
 /* In a copy without textures those that are declared stay. Of those that may be clear it is remembered whether they are. */
 static enum result write_coded_value(struct writer *writer, int token, int last, int name, struct error *err)
 {
@@ -1105,17 +1149,25 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         return write_statement(writer, token, last, err);
     if (is_word(file, token, "camera") || is_word(file, token, "function"))
         return copy_to(writer, file->list.tokens[last].end, err);
-    bool unlit = !rules->lights && !value && !inside(file, token, "light_group");
-    if (unlit && is_word(file, token, "light_source"))
-        return write_light(writer, token, last, err);
-    if (unlit && is_declared_light(writer, token))
-        return replace(writer, token, last, "", err);
+    if (!rules->lights && is_word(file, token, "light_source") && !inside(file, token, "light_group"))
+        return write_light(writer, token, last, value || fills_array(file, token), err);
+    if (rules->places && last >= writer->end && last == writer->object_end && in_list(file, token, object_words)) {
+        *next = 0;
+        return write_object(writer, token, last, -1, err);
+    }
     if (rules->places && (value || (file->list.tokens[token].parent < 0 && !argument)) &&
         in_list(file, token, object_words) && tracks(writer, token + 2, last))
         return write_object(writer, token, last, value ? writer->value_name : -1, err);
-    bool pigment = is_word(file, token, "pigment") && !inside(file, token, "function"), filling = fills_array(file, token);
+    bool filling = fills_array(file, token), pattern = inside_any(file, token, pattern_words);
+    bool pigment = is_word(file, token, "pigment") && !pattern;
     if (rules->covers && is_word(file, token, "interior"))
         return write_interior(writer, token, last, err);
+    if (rules->marks && last >= writer->end) {
+        *next = 0;
+        return is_word(file, token, "finish")    ? begin_finish(writer, token, err)
+               : is_word(file, token, "texture") ? begin_texture(writer, token, is_layer(file, token), err)
+                                                 : RESULT_OK;
+    }
     bool clear_name = value && find_name(&writer->scene->clear, file, writer->value_name) >= 0;
     if (value && is_word(file, token, "texture") && is_word(file, last + 1, "texture") && !filling &&
         (rules->marks || (rules->coded && clear_name)))
@@ -1133,7 +1185,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
                          "%s:%d: a mesh2 with a texture_list can't be taken yet: split it into one mesh for each texture",
                          file->path, file->list.tokens[token].line);
     if (rules->coded && in_list(file, token, texture_words))
-        return value || argument || filling || inside_surface(file, token)
+        return value || argument || filling || pattern || inside_any(file, token, surface_words)
                    ? write_coded_value(writer, token, last, value ? writer->value_name : -1, err)
                    : write_coded(writer, token, last, next, err);
     *next = 0;
@@ -1189,25 +1241,51 @@ static enum result write_include(struct writer *writer, int token, struct error 
     return RESULT_OK;
 }
 
+/* Objects without a texture take the default when they are finished, at the end of the union: it ends before the default
+ * changes. A copy without textures needs no default. */
+static enum result write_default(struct writer *writer, int token, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int last = file->list.tokens[token + 1].match;
+    *next = last + 1;
+    if (writer->rules->coded)
+        return copy_to(writer, file->list.tokens[last].end, err);
+    bool breaks = writer->rules->in_union && file->list.tokens[token].parent < 0 && !writer->in_macro;
+    enum result result = breaks ? insert_before(writer, token, "povgloss_modifiers() } ", err) : RESULT_OK;
+    if (!result)
+        result = write_tokens(writer, token + 1, last, err);
+    return result || !breaks ? result : insert_after(writer, last, " union { povgloss_nothing()", err);
+}
+
 static enum result write_tokens(struct writer *writer, int first, int end, struct error *err)
 {
     const struct scene_file *file = writer->file;
     enum result result = RESULT_OK;
+    int outer = writer->end;
+    writer->end = end;
     for (int i = first, next; !result && i < end; i = next ? next : i + 1) {
         next = 0;
         if (file->list.tokens[i].kind == TOKEN_DIRECTIVE) {
             track_directive(writer, i);
-            if (is_directive(file, i, "include"))
+            if (writer->rules->marks || writer->rules->coded)
+                result = copy_state(writer, i, err);
+            if (!result && is_directive(file, i, "include"))
                 result = write_include(writer, i + 1, err);
-            else if (is_directive(file, i, "default") && writer->rules->coded && opens_block(file, i))
-                next = file->list.tokens[i + 1].match + 1;
+            else if (!result && is_directive(file, i, "default") && opens_block(file, i))
+                result = write_default(writer, i, &next, err);
         } else if (file->list.tokens[i].kind == TOKEN_WORD) {
             if (opens_block(file, i))
                 result = write_block(writer, i, &next, err);
+            else if (writer->rules->marks && is_mark(file, i + 1, "{") && in_list(file, i, glossy_words))
+                result = insert_after(writer, i + 1,
+                                      " #error \"povgloss: this block isn't closed in the same file: close its brace "
+                                      "there\\n\" ",
+                                      err);
             if (!result && !next && writer->rules->marks && !fills_array(file, i))
                 result = write_finish_item(writer, i, &next, err);
         }
     }
+    writer->end = outer;
     return result;
 }
 
@@ -1240,7 +1318,7 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
     for (int i = 0; !result && i < scene->file_count; i++) {
         const struct scene_file *file = &scene->files[i];
         struct writer writer = {
-            .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy, .value_end = -1};
+            .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy, .value_end = -1, .end = file->list.count, .object_end = -1};
         /* POV-Ray takes a byte order mark in a scene but not in an include file, which every copy is. */
         if (file->source.size >= 3 && !memcmp(file->source.data, "\xEF\xBB\xBF", 3))
             writer.at = 3;

@@ -35,10 +35,12 @@ struct scene {
     struct buffer arrays;  /* as an array filled in its declaration, */
     struct buffer layered; /* as a texture of several layers, */
     struct buffer glossable; /* as a finish, texture or material, */
-    struct buffer clear;     /* as something that may be transparent (parameters of macros are among them) */
+    struct buffer clear;     /* as something that may be transparent, */
+    struct buffer parameters; /* as a parameter of a macro, which may be anything, or with one */
     bool glossy;           /* some finish may be glossy, by Gloss or Gloss_Roughness or by the user's choice */
     double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
     bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
+    bool mixes;            /* some texture may mix others: a map, an average, a blob, a mesh with a texture at each corner */
     bool highlights;       /* some finish names the size of a highlight */
     double version;        /* of a #version that opens the scene; 0: none */
     double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */

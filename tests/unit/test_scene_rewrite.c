@@ -331,9 +331,9 @@ static void copy__lights__where_they_are_needed(void **state)
         {CODED, "light_source { 0 rgb 1 looks_like { sphere { 0, 1 pigment { P } } } }",
          "light_source { 0 rgb 1 looks_like { sphere { 0, 1 transform {} } } fade_distance 1e-9 fade_power 20 }"},
         {BASE2, "#declare L = light_source { 0 rgb 1 }\nlight_source { L translate x }",
-         "#declare L = light_source { 0 rgb 1 }\nlight_group { light_source { L translate x } global_lights on }"},
+         "#declare L = light_source { 0 rgb 1 fade_distance 1e-9 fade_power 20 }\nlight_source { L translate x }"},
         {MIRROR, "#declare L = light_source { 0 rgb 1 } object { L translate x } object { M }",
-         "#declare L = light_source { 0 rgb 1 } object { M }"},
+         "#declare L = light_source { 0 rgb 1 fade_distance 1e-9 fade_power 20 } object { L translate x } object { M }"},
         {BASE2, "light_group { light_source { 0 rgb 1 } object { O } global_lights off }", NULL},
         {CODED, "light_group { union { light_source { 0 rgb 1 } } }", NULL},
     };
@@ -396,7 +396,7 @@ static void copy__pigments_that_may_be_transparent__looked_at_by_povray(void **s
          "#declare povgloss_cover = pigment { uv_mapping image_map { \"a.png\" } }; povgloss_cover_of_object(1) "},
         /* By way of other names, also backwards; parameters of macros may be anything. */
         {CODED, "#declare A = B; #declare B = rgbt 1; pigment { A }",
-         "#declare A = B; #declare B = rgbt 1; " COVER("pigment { A }", "object")},
+         "#declare A = B; #ifdef (povgloss_of_1) #declare povgloss_of_0 = povgloss_of_1; #end #declare B = rgbt 1; " COVER("pigment { A }", "object")},
         {CODED, "#macro M(C) pigment { C } #end", "#macro M(C) " COVER("pigment { C }", "object") " #end"},
         {CODED, "#declare A = rgb 1; // rgbt\npigment { A }", "#declare A = rgb 1; // rgbt\ntransform {}"},
         {REFLECTANCE, "#declare F = function { pigment { rgbt 1 } }", NULL},
@@ -430,10 +430,10 @@ static void base__transparent_objects_of_the_top_level__placed_by_povray(void **
     static const struct rewriting cases[] = {
         {SCENE_COPY_BASE_FIRST, "sphere { 0, 1 pigment { rgbt 1 } }",
          "#declare povgloss_object = sphere { povgloss_enter() 0, 1 " COVER("pigment { rgbt 1 }", "object")
-         "}; povgloss_place() "},
+         "} povgloss_place() "},
         {BASE2, "#if (1) object { A texture { pigment { rgbt 1 } } } #end",
          "#if (1) #declare povgloss_object = object { povgloss_enter() A " TEXTURE COVER("pigment { rgbt 1 }", "texture")
-         "} }; povgloss_place() #end"},
+         "} } povgloss_place() #end"},
         {SCENE_COPY_BASE_FIRST, "sphere { 0, 1 pigment { rgb 1 } } union { sphere { 0, 1 } }", NULL},
         {BASE, "sphere { 0, 1 pigment { rgbt 1 } }", NULL},
     };
