@@ -3,6 +3,7 @@
  * The command line mixes POV-Ray's switches, which are passed through, with options of two hyphens.
  */
 #include "cli.h"
+#include "depfile.h"
 #include "interrupt.h"
 #include "output_file.h"
 #include "passes.h"
@@ -31,6 +32,7 @@ static const char help[] =
     "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
     "                       interpolate; needs +W and +H\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
+    "  --depfile FILE       write a make rule that names every file the scene read, but the system's\n"
     "  --keep DIR           leave the rewritten scenes and POV-Ray's images in DIR\n"
     "  --povray PROGRAM     the POV-Ray program (default povray)\n";
 
@@ -44,6 +46,7 @@ static const char help_end[] =
 struct command {
     bool passes_only;
     const char *scene, *output;
+    const char *depfile; /* NULL: none */
     struct passes_options passes;
     struct cli_filter filter;
     bool filter_options_used;
@@ -69,6 +72,7 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
     } options[] = {
         {"-o", &command->output, NULL, 0, 0},
         {"--output", &command->output, NULL, 0, 0},
+        {"--depfile", &command->depfile, NULL, 0, 0},
         {"--keep", &command->passes.keep, NULL, 0, 0},
         {"--povray", &command->passes.povray, NULL, 0, 0},
         {"--jobs", NULL, &command->passes.jobs, 0, 64},
@@ -136,6 +140,8 @@ static enum result check_command(struct command *command, const struct povray_sw
         return error_set(err, RESULT_USAGE, "no scene: name a .pov file");
     if (!command->output)
         return error_set(err, RESULT_USAGE, "no output: add -o FILE (or -o - for standard output)");
+    if (command->depfile && !strcmp(command->output, "-"))
+        return error_set(err, RESULT_USAGE, "--depfile needs the output's name for its rule: -o - has none");
     if (command->passes_only && command->filter_options_used)
         return error_set(err, RESULT_USAGE, "povgloss passes doesn't filter: give the filter's options to glossfilter");
     int step = command->passes.subsample;
@@ -224,12 +230,17 @@ static enum result run(struct command *command, const struct povray_switches *sw
 {
     struct progress progress = {.terminal = isatty(STDERR_FILENO), .shown = -1};
     struct gbuffer gbuffer = {0};
+    struct buffer reads = {0};
     struct error note;
 
     /* 1. refuse what can't be written, before the work */
     enum result result = cli_check_output(command->output, &command->filter, err);
     if (!result)
         result = check_place(command->output, err);
+    if (!result && command->depfile)
+        result = depfile_check_name(command->output, err);
+    if (!result && command->depfile)
+        result = check_place(command->depfile, err);
     if (result)
         return result;
 
@@ -243,6 +254,7 @@ static enum result run(struct command *command, const struct povray_switches *sw
     passes->antialias = switches->antialias;
     passes->width = switches->width;
     passes->height = switches->height;
+    passes->reads = command->depfile ? &reads : NULL;
     passes->progress = command->filter.quiet ? no_progress : show_progress;
     passes->progress_context = &progress;
     result = passes_render(passes, &gbuffer, &note, err);
@@ -256,6 +268,11 @@ static enum result run(struct command *command, const struct povray_switches *sw
         result = passes_file_write(command->output, &gbuffer, err);
     else if (!result)
         result = cli_draw(command->output, &command->filter, &gbuffer, err);
+
+    /* 4. what they were made from */
+    if (!result && command->depfile)
+        result = depfile_write(command->depfile, command->output, &reads, err);
+    buffer_free(&reads);
     gbuffer_free(&gbuffer);
     return result;
 }

@@ -6,6 +6,7 @@
 #include "pass_images.h"
 #include "pass_scene.h"
 #include "povray_switches.h"
+#include "reads.h"
 #include "work_folder.h"
 
 #include <assert.h>
@@ -21,6 +22,7 @@ struct run {
     struct scene scene;
     struct work_folder folder;
     char **directories; /* where includes are looked for, absolute; those up to linked_count have links lib0, lib1, ... */
+    char **directory_names; /* the same as the user wrote them */
     int directory_count, linked_count;
     struct povray_job jobs[PASS_COUNT];
     enum pass_id ids[PASS_COUNT];
@@ -71,13 +73,19 @@ static enum result add_directory(struct run *run, const char *path, struct error
     char *absolute = realpath(path, NULL);
     if (!absolute)
         return RESULT_OK; /* POV-Ray too passes over a folder that isn't there */
-    char **directories = realloc(run->directories, ((size_t)run->directory_count + 1) * sizeof *directories);
-    if (!directories) {
+    size_t size = ((size_t)run->directory_count + 1) * sizeof(char *);
+    char *name = strdup(path);
+    char **directories = realloc(run->directories, size);
+    run->directories = directories ? directories : run->directories;
+    char **names = realloc(run->directory_names, size);
+    run->directory_names = names ? names : run->directory_names;
+    if (!name || !directories || !names) {
         free(absolute);
-        return error_memory(err, sizeof *directories);
+        free(name);
+        return error_memory(err, (double)size);
     }
-    run->directories = directories;
-    directories[run->directory_count++] = absolute;
+    directories[run->directory_count] = absolute;
+    names[run->directory_count++] = name;
     return RESULT_OK;
 }
 
@@ -279,30 +287,36 @@ static enum result report_failure(const struct run *run, const struct povray_job
     return RESULT_POVRAY;
 }
 
-/* The environment with POVINI set to the .ini file that holds where povgloss was started (NULL: none). The caller frees the
- * array and *variable, the only one of its strings that is new. */
-static enum result make_environment(const char *ini, char ***environment, char **variable, struct error *err)
+/* The environment with POVINI set to the .ini file that holds where povgloss was started (NULL: none), and LD_PRELOAD where
+ * `reads` are noted. The caller frees the array and the variables, the only ones of its strings that are new. */
+static enum result make_environment(const char *ini, bool reads, char ***environment, char *variables[2],
+                                    struct error *err)
 {
     int count = 0, kept = 0;
     while (environ[count])
         count++;
-    *variable = NULL;
-    *environment = calloc((size_t)count + 2, sizeof **environment);
+    *environment = calloc((size_t)count + 3, sizeof **environment);
     if (!*environment)
         return error_memory(err, (double)count * sizeof **environment);
     for (int i = 0; i < count; i++)
-        if (strncmp(environ[i], "POVINI=", 7))
+        if (strncmp(environ[i], "POVINI=", 7) && !(reads && !strncmp(environ[i], "LD_PRELOAD=", 11)))
             (*environment)[kept++] = environ[i];
-    enum result result = ini ? text_printf(variable, err, "POVINI=%s", ini) : RESULT_OK;
-    (*environment)[kept] = *variable;
+    enum result result = ini ? text_printf(&variables[0], err, "POVINI=%s", ini) : RESULT_OK;
+    if (!result && reads)
+        result = reads_variable(&variables[1], err);
+    for (int i = 0; i < 2; i++)
+        if (variables[i])
+            (*environment)[kept++] = variables[i];
     return result;
 }
 
 static enum result run_passes(struct run *run, const char *ini, struct error *err)
 {
     const struct passes_options *options = run->options;
-    char **arguments[PASS_COUNT] = {0}, *folders[PASS_COUNT] = {0}, *variable = NULL, **environment = NULL;
+    char **arguments[PASS_COUNT] = {0}, *folders[PASS_COUNT] = {0}, *variables[2] = {0}, **environment = NULL;
     enum result result = link_ini_files(run, err);
+    if (!result && options->reads)
+        result = reads_begin(&run->folder, err);
     for (int i = 0; !result && i < run->job_count; i++) {
         result = job_arguments(run, run->ids[i], &arguments[i], err);
         if (!result)
@@ -311,7 +325,7 @@ static enum result run_passes(struct run *run, const char *ini, struct error *er
             .name = pass_table[run->ids[i]].name, .folder = folders[i], .arguments = arguments[i]};
     }
     if (!result)
-        result = make_environment(ini, &environment, &variable, err);
+        result = make_environment(ini, options->reads, &environment, variables, err);
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     if (!result)
         result = povray_run(run->jobs, run->job_count, at_once, environment, options->progress,
@@ -325,8 +339,21 @@ static enum result run_passes(struct run *run, const char *ini, struct error *er
         free(folders[i]);
     }
     free(environment);
-    free(variable);
+    free(variables[0]);
+    free(variables[1]);
     return result;
+}
+
+static enum result collect_reads(const struct run *run, struct error *err)
+{
+    const struct passes_options *options = run->options;
+    struct reads_places places = {.scene = &run->scene,
+                                  .directories = (const char *const *)run->directories,
+                                  .names = (const char *const *)run->directory_names,
+                                  .count = run->linked_count,
+                                  .switches = options->switches,
+                                  .switch_count = options->switch_count};
+    return reads_collect(&run->folder, &places, options->reads, err);
 }
 
 static enum result check_scene(const struct run *run, struct error *note, struct error *err)
@@ -370,6 +397,8 @@ enum result passes_render(const struct passes_options *options, struct gbuffer *
         result = write_scenes(&run, err);
     if (!result)
         result = run_passes(&run, ini, err);
+    if (!result && options->reads)
+        result = collect_reads(&run, err);
     if (!result) {
         struct pass_images images = {
             .folder = run.folder.path, .name = options->scene, .scene = &run.scene, .subsample = options->subsample};
@@ -379,9 +408,12 @@ enum result passes_render(const struct passes_options *options, struct gbuffer *
         gbuffer_free(gbuffer);
     povray_jobs_free(run.jobs, run.job_count);
     scene_free(&run.scene);
-    for (int i = 0; i < run.directory_count; i++)
+    for (int i = 0; i < run.directory_count; i++) {
         free(run.directories[i]);
+        free(run.directory_names[i]);
+    }
     free(run.directories);
+    free(run.directory_names);
     free(ini);
     work_folder_remove(&run.folder);
     return result;

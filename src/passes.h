@@ -29,6 +29,7 @@ struct passes_options {
     int width, height;             /* of the image where the switches say it, else 0 */
     int subsample;                 /* 1; 2 or 4: specular, a and b are traced at every so-many-th pixel and interpolated */
     int jobs;                      /* POV-Ray processes at the same time; 0: two more than there are cores */
+    struct buffer *reads;          /* gets the files that POV-Ray read (reads.h); NULL: not asked */
     povray_progress *progress;
     void *progress_context;
 };

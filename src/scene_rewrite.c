@@ -305,7 +305,7 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
     const struct scene_file *file = &scene->files[index];
     const struct token *tokens = file->list.tokens;
     bool declares = is_directive(file, token, "declare") || is_directive(file, token, "local") ||
-                    is_directive(file, token, "macro");
+                    is_directive(file, token, "macro") || is_directive(file, token, "fopen");
     if (declares && tokens[token + 1].kind == TOKEN_WORD) {
         enum result result = add_name(&scene->names, file, token + 1, err);
         if (!result && is_mark(file, token + 2, "=") && is_word(file, token + 3, "light_source"))

@@ -870,8 +870,8 @@ static void load__names__of_all_files_once(void **state)
     struct scene scene;
     write_text("n.inc", "#declare In = 1; #declare A = 2;");
     load_text(&scene, "#declare A = 1; #local Bc = light_source { 0 rgb 1 } #macro M(P) #end #include \"n.inc\"\n"
-                      "#declare A = 3; #declare L = sphere { 0, 1 } // #declare No = 1;\n#declare AA = 1;");
-    static const char names[] = "A\0Bc\0M\0In\0L\0AA";
+                      "#declare A = 3; #declare L = sphere { 0, 1 } // #declare No = 1;\n#declare AA = 1;\n#fopen F \"f\" write");
+    static const char names[] = "A\0Bc\0M\0In\0L\0AA\0F";
     assert_int_equal(scene.names.size, sizeof names);
     assert_memory_equal(scene.names.data, names, sizeof names);
     assert_int_equal(scene.lights.size, 3);

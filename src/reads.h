@@ -1,0 +1,32 @@
+/* The files that POV-Ray read: a shared object that is loaded into it (preload_reads.c) notes them in the work folder's
+ * reads.log, and this turns them into the names that the user knows. */
+#ifndef POVGLOSS_READS_H
+#define POVGLOSS_READS_H
+
+#include "scene_rewrite.h"
+#include "work_folder.h"
+
+/* How the names in the log, which POV-Ray opened in a folder of the work folder, lead to the user's. */
+struct reads_places {
+    const struct scene *scene;
+    const char *const *directories; /* absolute, behind the links ../lib0, ../lib1, ... */
+    const char *const *names;       /* the same as the user wrote them */
+    int count;
+    const char *const *switches;    /* those that name .ini files are behind ../ini0.ini, ... by their index */
+    int switch_count;
+};
+
+/* Makes the empty log and the link to the shared object, ../lib/povgloss_reads.so from the program's folder. RESULT_DATA
+ * where that isn't there. */
+MUST_CHECK enum result reads_begin(const struct work_folder *folder, struct error *err);
+
+/* The variable LD_PRELOAD=... for the environment of POV-Ray, with what it holds now. The caller frees it. */
+MUST_CHECK enum result reads_variable(char **variable, struct error *err);
+
+/* Adds the files of the log to *files: names that end with NUL, without repeats, sorted but for the scene, which comes
+ * first. Left out are files below /usr, /etc, /proc and /sys, unless one of the directories led to them, and what the
+ * scene wrote itself. RESULT_DATA if there was nothing in the log. */
+MUST_CHECK enum result reads_collect(const struct work_folder *folder, const struct reads_places *places,
+                                     struct buffer *files, struct error *err);
+
+#endif

@@ -1,0 +1,174 @@
+#!/usr/bin/env bash
+# --depfile: make, reading the rule, redraws a picture when any file that its scene read has changed, and only then.
+. tests/e2e/lib.sh
+
+cd "$scratch" || exit 1
+mkdir -p 'lib $1/parts' fake
+# oiiotool takes # for a frame number.
+png() { oiiotool --pattern checker:width=2:height=2 8x8 3 -d uint8 -o new.png && mv new.png "$1"; }
+png 'lib $1/parts/height#2.png'
+png 'a [b]*.png'
+png unused.png
+cp "$root/povscenes/povgloss.inc" 'lib $1/'
+cp /usr/share/povray-3.7/include/cyrvetic.ttf 'my font.ttf'
+# shellcheck disable=SC2028 # the backslash is one
+echo '#include "deep: back\ slash.inc"' > first.inc
+echo '#declare Deep = 1;' > 'deep: back\ slash.inc'
+echo '#declare Deep = 2;' > skipped.inc
+echo '1, 2, 3' > data.txt
+echo '+W16 +H12' > size.ini
+cat > 'my scene.pov' << 'POV'
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+#include "povgloss.inc"
+#include "first.inc"
+#if (Deep = 2) #include "skipped.inc" #end
+#fopen Data "data.txt" read
+#read (Data, A, B)
+#fopen Own "own.txt" write
+#write (Own, "1,")
+#fclose Own
+#fopen Own "own.txt" read
+#read (Own, C)
+camera { location <0, 2, -6> look_at 0 }
+light_source { <-5, 8, -6> rgb 1 }
+height_field { png concat("parts/height#", str(B, 0, 0), ".png") }
+text { ttf "my font.ttf" "x" 0.1, 0 }
+plane { y, 0 pigment { image_map { png "a [b]*.png" } } finish { reflection 0.5 Gloss(50) } }
+POV
+cat >> 'my scene.pov' << POV
+#fopen Log "$PWD/own-log.txt" append
+#write (Log, "1,")
+#fclose Log
+#fopen Log "$PWD/own-log.txt" read
+#read (Log, D)
+POV
+reads=('my scene.pov' first.inc 'deep: back\ slash.inc' 'lib $1/povgloss.inc' 'lib $1/parts/height#2.png' 'my font.ttf'
+       'a [b]*.png' data.txt size.ini)
+# shellcheck disable=SC2016 # for make
+{
+    echo 'all: my\ picture$$.png'
+    echo 'my\ picture$$.png:; "$(POVGLOSS)" render "my scene.pov" "+Llib \$$1" size.ini -A --quiet' \
+        '--depfile picture.d -o "my picture\$$.png"'
+    echo '-include picture.d'
+} > Makefile
+make=(make --no-print-directory --no-builtin-rules "POVGLOSS=$bin/povgloss")
+
+age() {
+    touch -d 2001-01-01 -- *.* lib*/* lib*/parts/*
+    touch -d 2002-02-02 'my picture$.png'
+}
+up_to_date() { "${make[@]}" -q || fail "make would redraw: $("${make[@]}" -n)"; }
+redraws() {
+    "${make[@]}" -q
+    status=$?
+    expect_status 1
+}
+
+draws() {
+    "${make[@]}" || return 1
+    if [ ! -s 'my picture$.png' ] || [ ! -s picture.d ]; then
+        ls
+        return 1
+    fi
+    expect_nothing_left && [ -z "$(ls -A | grep povgloss-)" ]
+}
+touched() {
+    age
+    touch "$1"
+    redraws || { cat picture.d; return 1; }
+}
+nothing_touched() {
+    age
+    up_to_date
+}
+others_touched() {
+    age
+    touch unused.png skipped.inc
+    up_to_date
+}
+removed() {
+    age
+    mv first.inc second.inc
+    sed -i 's/first/second/' 'my scene.pov'
+    redraws || return 1
+    "${make[@]}" && touch -d 2001-01-01 second.inc && age && up_to_date && touch second.inc && redraws
+}
+check "the picture and the rule are made" draws
+check "nothing touched: nothing is redrawn" nothing_touched
+check "files that the scene didn't read touched: nothing is redrawn" others_touched
+for file in "${reads[@]}"; do
+    check "touched: $file" touched "$file"
+done
+no_other_names() {
+    # Every name is the user's: relative, and in one of the places that were named.
+    ! grep -nE '^ ?/|: /|/tmp|copies|lib0|own|/usr|/etc' picture.d
+}
+check "no name of the system, of the work folder or of what the scene wrote" no_other_names
+check "an include that is gone doesn't stop make" removed
+
+passes_too() {
+    "$bin/povgloss" passes 'my scene.pov' '+Llib $1' size.ini -A --quiet --depfile passes.d -o passes.exr || return 1
+    sed -e 's/^my.*png:/passes.exr:/' picture.d | cmp - passes.d
+}
+check "povgloss passes writes the same rule" passes_too
+to_standard_output() {
+    "$bin/povgloss" render 'my scene.pov' '+Llib $1' size.ini -A --quiet --depfile - -o 'my picture$.png' | cmp - picture.d
+}
+check "--depfile - is standard output" to_standard_output
+absolute() {
+    "$bin/povgloss" render "$PWD/my scene.pov" "+L$PWD/lib \$1" size.ini -A --quiet --depfile absolute.d -o "$PWD/x.png" ||
+        return 1
+    grep -qF "$PWD/x.png: $PWD/my\\ scene.pov" absolute.d && grep -qF "$PWD/lib\\ \$\$1/povgloss.inc:" absolute.d ||
+        { cat absolute.d; return 1; }
+}
+check "absolute names stay absolute" absolute
+
+# ---- failures
+
+refused() {
+    local expected=$1 message=$2
+    shift 2
+    echo old > old.d
+    run "$bin/povgloss" render 'my scene.pov' '+Llib $1' size.ini -A --quiet --depfile old.d "$@"
+    expect_status "$expected" && expect_message "$message" && expect_nothing_left && [ "$(cat old.d)" = old ]
+}
+for name in 'a;b.png' 'a%b.png' 'a=b.png' 'a|b.png' '~a.png' $'a\tb.png' $'a\nb.png'; do
+    check "an output that no rule can name: ${name//[$'\n\t']/?}" refused 3 "make can't take" -o "$name"
+done
+check "an output without a name" refused 2 "-o - has none" -o -
+fails() {
+    echo old > old.d
+    { cat 'my scene.pov'; echo '#error "oops"'; } > wrong.pov
+    run "$bin/povgloss" render wrong.pov '+Llib $1' --quiet --depfile old.d -o wrong.png
+    expect_status 4 && expect_nothing_left && expect_no_file wrong.png && [ "$(cat old.d)" = old ]
+}
+check "a scene that fails leaves the older rule" fails
+odd_dependency() {
+    cp second.inc 'odd;name.inc'
+    sed 's/second/odd;name/' 'my scene.pov' > odd.pov
+    echo old > old.d
+    run "$bin/povgloss" render odd.pov '+Llib $1' size.ini -A --quiet --depfile old.d -o odd.png
+    expect_status 3 && expect_message "odd;name.inc: make can't take" && [ "$(cat old.d)" = old ]
+}
+check "a file that no rule can name" odd_dependency
+no_folder() {
+    run "$bin/povgloss" render 'my scene.pov' '+Llib $1' --quiet --depfile none/x.d --povray "$PWD/never" -o x.png
+    expect_status 3 && expect_message "mkdir -p"
+}
+check "a depfile in a folder that is missing is told before the work" no_folder
+not_preloaded() {
+    printf '#!/bin/sh\nunset LD_PRELOAD\nexec %q "$@"\n' "$(command -v povray)" > fake/povray
+    chmod +x fake/povray
+    rm -f x.png
+    run "$bin/povgloss" render 'my scene.pov' '+Llib $1' size.ini -A --quiet --depfile x.d --povray fake/povray -o x.png
+    expect_status 3 && expect_message "LD_PRELOAD" && expect_no_file x.d x.png
+}
+check "a povray whose reading can't be noted" not_preloaded
+own_preload() {
+    printf '#!/bin/sh\necho "$LD_PRELOAD" > %q\nexec %q "$@"\n' "$PWD/seen" "$(command -v povray)" > fake/povray
+    LD_PRELOAD=libm.so.6 "$bin/povgloss" render 'my scene.pov' '+Llib $1' size.ini -A --quiet --depfile own.d \
+        --povray fake/povray -o 'my picture$.png' && cmp own.d picture.d && grep -q 'reads.so:libm.so.6' seen
+}
+check "the user's own LD_PRELOAD stays" own_preload
+end_of_tests
