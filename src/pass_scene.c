@@ -213,6 +213,21 @@ static struct scene_part first_part(const struct scene *scene, enum pass_id id)
     return part;
 }
 
+enum result pass_discovery_text(const struct scene *scene, struct buffer *text, struct error *err)
+{
+    char *name = NULL;
+    enum result result = scene->version > 0 ? buffer_printf(text, err, "#version %.9g;\n", scene->version) : RESULT_OK;
+    if (!result)
+        result = scene_copy_name(scene, SCENE_COPY_DISCOVERY, 0, &name, err);
+    if (!result)
+        result = buffer_printf(text, err,
+                               "#macro povgloss_camera() #end\n#include \"%s\"\n" SCENE_DISCOVERY_WRITE("\"end\"")
+                               "\n#error \"discovered\"\n",
+                               name);
+    free(name);
+    return result;
+}
+
 enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text, struct error *err)
 {
     const struct pass *pass = &pass_table[id];

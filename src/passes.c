@@ -3,6 +3,7 @@
  */
 #include "passes.h"
 
+#include "input_file.h"
 #include "pass_images.h"
 #include "pass_scene.h"
 #include "povray_switches.h"
@@ -24,45 +25,54 @@ struct run {
     char **directories; /* where includes are looked for, absolute; those up to linked_count have links lib0, lib1, ... */
     char **directory_names; /* the same as the user wrote them */
     int directory_count, linked_count;
+    char **environment; /* of POV-Ray: the strings are those of environ, and `variables` */
+    char *variables[2];
     struct povray_job jobs[PASS_COUNT];
     enum pass_id ids[PASS_COUNT];
     int job_count;
 };
 
-static enum result write_wrapper(const struct run *run, enum pass_id id, struct error *err)
+/* Makes the folder and writes the scene in it that POV-Ray reads. */
+static enum result write_wrapper(const struct run *run, const char *folder, const struct buffer *text, struct error *err)
 {
-    struct buffer text = {0};
     char *path = NULL;
-    enum result result = work_folder_add(&run->folder, pass_table[id].name, err);
+    enum result result = work_folder_add(&run->folder, folder, err);
     if (!result)
-        result = pass_scene_text(&run->scene, id, &text, err);
+        result = text_printf(&path, err, "%s/%s/pass.pov", run->folder.path, folder);
     if (!result)
-        result = text_printf(&path, err, "%s/%s/pass.pov", run->folder.path, pass_table[id].name);
-    if (!result)
-        result = file_write(path, &text, err);
-    buffer_free(&text);
+        result = file_write(path, text, err);
     free(path);
+    return result;
+}
+
+static enum result write_copy(const struct run *run, enum scene_copy copy, struct error *err)
+{
+    char *copies = NULL;
+    enum result result = text_printf(&copies, err, "%s/copies", run->folder.path);
+    if (!result)
+        result = scene_write_copy(&run->scene, copy, copies, err);
+    free(copies);
     return result;
 }
 
 static enum result write_scenes(struct run *run, struct error *err)
 {
     bool needed[SCENE_COPY_COUNT] = {false}, several = run->scene.exponent < 0;
-    enum result result = work_folder_add(&run->folder, "copies", err);
+    enum result result = RESULT_OK;
     for (int id = 0; !result && id < PASS_COUNT; id++) {
         if ((id == PASS_EXPONENT && !several) || (id != PASS_BASE && !run->scene.glossy))
             continue;
         run->ids[run->job_count++] = (enum pass_id)id;
         pass_copies(&run->scene, (enum pass_id)id, needed);
-        result = write_wrapper(run, (enum pass_id)id, err);
+        struct buffer text = {0};
+        result = pass_scene_text(&run->scene, (enum pass_id)id, &text, err);
+        if (!result)
+            result = write_wrapper(run, pass_table[id].name, &text, err);
+        buffer_free(&text);
     }
-    char *copies = NULL;
-    if (!result)
-        result = text_printf(&copies, err, "%s/copies", run->folder.path);
     for (int copy = 0; !result && copy < SCENE_COPY_COUNT; copy++)
         if (needed[copy])
-            result = scene_write_copy(&run->scene, (enum scene_copy)copy, copies, err);
-    free(copies);
+            result = write_copy(run, (enum scene_copy)copy, err);
     return result;
 }
 
@@ -201,30 +211,38 @@ static enum result link_ini_files(const struct run *run, struct error *err)
     return result;
 }
 
+/* The program, the user's switches, where files are looked for, and the scene. */
+static enum result scene_arguments(const struct run *run, char ***arguments, int *count, struct error *err)
+{
+    const struct passes_options *options = run->options;
+    /* POV-Ray runs in a folder of its own. */
+    char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
+    enum result result = add_argument(arguments, count, err, "%s", program ? program : options->povray);
+    free(program);
+    for (int i = 0; !result && i < options->switch_count; i++)
+        result = add_switch(run, arguments, count, i, err);
+    if (!result)
+        result = add_argument(arguments, count, err, "%s", "+L../copies");
+    for (int i = 0; !result && i < run->linked_count; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "lib%d", i);
+        result = add_argument(arguments, count, err, "+L../%s", name);
+    }
+    static const char *const always[] = {"+Ipass.pov", "-D", "-P", "-C", "-UA", "+GA", "+V", NULL};
+    for (int i = 0; !result && always[i]; i++)
+        result = add_argument(arguments, count, err, "%s", always[i]);
+    return result;
+}
+
 /* The user's switches first, then those on which the pass depends: POV-Ray takes the last one. */
 static enum result job_arguments(const struct run *run, enum pass_id id, char ***arguments, struct error *err)
 {
     const struct passes_options *options = run->options;
     const struct pass *pass = &pass_table[id];
     int count = 0;
-    /* POV-Ray runs in a folder of its own. */
-    char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
-    enum result result = add_argument(arguments, &count, err, "%s", program ? program : options->povray);
-    free(program);
-    for (int i = 0; !result && i < options->switch_count; i++)
-        result = add_switch(run, arguments, &count, i, err);
-    if (!result)
-        result = add_argument(arguments, &count, err, "%s", "+L../copies");
-    for (int i = 0; !result && i < run->linked_count; i++) {
-        char name[32];
-        snprintf(name, sizeof name, "lib%d", i);
-        result = add_argument(arguments, &count, err, "+L../%s", name);
-    }
-    static const char *const always[] = {"+Ipass.pov", "-D", "-P", "-C", "-UA", "+GA", "+V", NULL};
+    enum result result = scene_arguments(run, arguments, &count, err);
     static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
-    for (int i = 0; !result && always[i]; i++)
-        result = add_argument(arguments, &count, err, "%s", always[i]);
     const char *const *format = pass->codes ? codes : radiance;
     for (int i = 0; !result && format[i]; i++)
         result = add_argument(arguments, &count, err, "%s", format[i]);
@@ -288,35 +306,106 @@ static enum result report_failure(const struct run *run, const struct povray_job
 }
 
 /* The environment with POVINI set to the .ini file that holds where povgloss was started (NULL: none), and LD_PRELOAD where
- * `reads` are noted. The caller frees the array and the variables, the only ones of its strings that are new. */
-static enum result make_environment(const char *ini, bool reads, char ***environment, char *variables[2],
-                                    struct error *err)
+ * what is read is to be noted. */
+static enum result make_environment(struct run *run, const char *ini, struct error *err)
 {
+    bool reads = run->options->reads;
     int count = 0, kept = 0;
     while (environ[count])
         count++;
-    *environment = calloc((size_t)count + 3, sizeof **environment);
-    if (!*environment)
-        return error_memory(err, (double)count * sizeof **environment);
+    run->environment = calloc((size_t)count + 3, sizeof *run->environment);
+    if (!run->environment)
+        return error_memory(err, (double)count * sizeof *run->environment);
     for (int i = 0; i < count; i++)
         if (strncmp(environ[i], "POVINI=", 7) && !(reads && !strncmp(environ[i], "LD_PRELOAD=", 11)))
-            (*environment)[kept++] = environ[i];
-    enum result result = ini ? text_printf(&variables[0], err, "POVINI=%s", ini) : RESULT_OK;
+            run->environment[kept++] = environ[i];
+    enum result result = ini ? text_printf(&run->variables[0], err, "POVINI=%s", ini) : RESULT_OK;
     if (!result && reads)
-        result = reads_variable(&variables[1], err);
+        result = reads_variable(&run->variables[1], err);
     for (int i = 0; i < 2; i++)
-        if (variables[i])
-            (*environment)[kept++] = variables[i];
+        if (run->variables[i])
+            run->environment[kept++] = run->variables[i];
     return result;
 }
 
-static enum result run_passes(struct run *run, const char *ini, struct error *err)
+static enum result prepare_environment(struct run *run, const char *ini, struct error *err)
+{
+    enum result result = link_ini_files(run, err);
+    if (!result && run->options->reads)
+        result = reads_begin(&run->folder, err);
+    return result ? result : make_environment(run, ini, err);
+}
+
+static void free_arguments(char **arguments)
+{
+    for (char **argument = arguments; argument && *argument; argument++)
+        free(*argument);
+    free(arguments);
+}
+
+static void no_progress(void *context, double done)
+{
+    (void)context;
+    (void)done;
+}
+
+/* POV-Ray parses the scene and is stopped by the wrapper before it draws: that is a success if the log has its last line. */
+static enum result run_discovery(struct run *run, const char *name, const char *folder, struct error *err)
+{
+    char **arguments = NULL, *path = NULL;
+    int count = 0, failed = -1;
+    struct input_file log = {0};
+    struct error ignored;
+    enum result result = scene_arguments(run, &arguments, &count, err);
+    struct povray_job job = {.name = name, .folder = folder, .arguments = arguments};
+    if (!result)
+        result = text_printf(&path, err, "%s/" SCENE_DISCOVERY_LOG, folder);
+    if (!result)
+        result = povray_run(&job, 1, 1, run->environment, no_progress, NULL, &failed, err);
+    if (failed >= 0 && !input_file_read(path, &log, &ignored) && log.size >= 4 &&
+        !memcmp(log.data + log.size - 4, "end\n", 4))
+        result = RESULT_OK;
+    else if (failed >= 0)
+        result = report_failure(run, &job, err);
+    input_file_free(&log);
+    povray_jobs_free(&job, 1);
+    free_arguments(arguments);
+    free(path);
+    return result;
+}
+
+/* Finds the files that only POV-Ray knows; what is included by a new file is found in a further run. */
+static enum result discover(struct run *run, struct error *err)
+{
+    bool again = run->scene.needs_discovery;
+    enum result result = RESULT_OK;
+    for (int round = 1; !result && again; round++) {
+        char name[32], *folder = NULL;
+        struct buffer text = {0};
+        snprintf(name, sizeof name, "discovery%d", round);
+        result = text_printf(&folder, err, "%s/%s", run->folder.path, name);
+        if (!result)
+            result = pass_discovery_text(&run->scene, &text, err);
+        if (!result)
+            result = write_wrapper(run, name, &text, err);
+        if (!result)
+            result = write_copy(run, SCENE_COPY_DISCOVERY, err);
+        if (!result)
+            result = run_discovery(run, name, folder, err);
+        if (!result)
+            result = scene_discover(&run->scene, folder, (const char *const *)run->directories, run->directory_count,
+                                    &again, err);
+        buffer_free(&text);
+        free(folder);
+    }
+    return result;
+}
+
+static enum result run_passes(struct run *run, struct error *err)
 {
     const struct passes_options *options = run->options;
-    char **arguments[PASS_COUNT] = {0}, *folders[PASS_COUNT] = {0}, *variables[2] = {0}, **environment = NULL;
-    enum result result = link_ini_files(run, err);
-    if (!result && options->reads)
-        result = reads_begin(&run->folder, err);
+    char **arguments[PASS_COUNT] = {0}, *folders[PASS_COUNT] = {0};
+    enum result result = RESULT_OK;
     for (int i = 0; !result && i < run->job_count; i++) {
         result = job_arguments(run, run->ids[i], &arguments[i], err);
         if (!result)
@@ -324,23 +413,16 @@ static enum result run_passes(struct run *run, const char *ini, struct error *er
         run->jobs[i] = (struct povray_job){
             .name = pass_table[run->ids[i]].name, .folder = folders[i], .arguments = arguments[i]};
     }
-    if (!result)
-        result = make_environment(ini, options->reads, &environment, variables, err);
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     if (!result)
-        result = povray_run(run->jobs, run->job_count, at_once, environment, options->progress,
+        result = povray_run(run->jobs, run->job_count, at_once, run->environment, options->progress,
                             options->progress_context, &failed, err);
     if (failed >= 0)
         result = report_failure(run, &run->jobs[failed], err);
     for (int i = 0; i < run->job_count; i++) {
-        for (char **argument = arguments[i]; argument && *argument; argument++)
-            free(*argument);
-        free(arguments[i]);
+        free_arguments(arguments[i]);
         free(folders[i]);
     }
-    free(environment);
-    free(variables[0]);
-    free(variables[1]);
     return result;
 }
 
@@ -392,11 +474,17 @@ enum result passes_render(const struct passes_options *options, struct gbuffer *
     if (!result)
         result = scene_load(&run.scene, options->scene, &options->gloss, (const char *const *)run.directories, run.directory_count, err);
     if (!result)
+        result = work_folder_add(&run.folder, "copies", err);
+    if (!result)
+        result = prepare_environment(&run, ini, err);
+    if (!result)
+        result = discover(&run, err);
+    if (!result)
         result = check_scene(&run, note, err);
     if (!result)
         result = write_scenes(&run, err);
     if (!result)
-        result = run_passes(&run, ini, err);
+        result = run_passes(&run, err);
     if (!result && options->reads)
         result = collect_reads(&run, err);
     if (!result) {
@@ -414,6 +502,9 @@ enum result passes_render(const struct passes_options *options, struct gbuffer *
     }
     free(run.directories);
     free(run.directory_names);
+    free(run.environment);
+    free(run.variables[0]);
+    free(run.variables[1]);
     free(ini);
     work_folder_remove(&run.folder);
     return result;

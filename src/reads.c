@@ -86,8 +86,10 @@ static enum result user_name(const struct reads_places *places, const char *open
     if (strncmp(opened, "../copies/", strlen("../copies/")))
         return RESULT_OK;
     int file = scene_file_of_copy(places->scene, opened + strlen("../copies/"));
-    if (file <= 0)
-        return file < 0 ? RESULT_OK : text_printf(name, err, "%s", places->scene->files[0].path);
+    if (file < 0 || places->scene->files[file].written)
+        return RESULT_OK;
+    if (file == 0)
+        return text_printf(name, err, "%s", places->scene->files[0].path);
     return user_path(places, places->scene->files[file].path, name, err);
 }
 

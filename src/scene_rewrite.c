@@ -39,6 +39,7 @@ struct rules {
     bool opaque;          /* filter and transmit become 0 */
     bool coded;           /* textures are taken off */
     bool technical;       /* linear working space, no photons, no radiosity */
+    bool discovery;       /* includes and assumed_gamma are written to the log */
 };
 
 static const struct rules copy_rules[SCENE_COPY_COUNT] = {
@@ -49,6 +50,7 @@ static const struct rules copy_rules[SCENE_COPY_COUNT] = {
     [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .marks = true, .pigments = true, .technical = true},
     [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .marks = true, .opaque = true},
     [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .coded = true, .technical = true},
+    [SCENE_COPY_DISCOVERY] = {"discovery", STATEMENTS_STAY, .lights = true, .discovery = true},
 };
 
 static bool in_list(const struct scene_file *file, int token, const char *const *words)
@@ -120,6 +122,16 @@ static bool inside(const struct scene_file *file, int token, const char *keyword
 static bool opens_block(const struct scene_file *file, int token)
 {
     return is_mark(file, token + 1, "{") && file->list.tokens[token + 1].match > 0;
+}
+
+/* Whether the directive is closed by an #end. */
+static bool opens_nesting(const struct scene_file *file, int token)
+{
+    static const char *const openers[] = {"if", "ifdef", "ifndef", "while", "for", "switch", "macro", NULL};
+    for (int i = 0; openers[i]; i++)
+        if (is_directive(file, token, openers[i]))
+            return true;
+    return false;
 }
 
 /* ---- reading ---- */
@@ -201,24 +213,21 @@ static bool is_plain_mirror(const struct scene_file *file, int token)
     return !zero && (!gloss || conditional);
 }
 
-/* The first assumed_gamma of a scene is the one that POV-Ray takes. */
+static int value_end(const struct scene_file *file, int token);
+
+/* The first assumed_gamma of a scene is the one that POV-Ray takes: which of several that is, only POV-Ray knows. */
 static enum result note_gamma(struct scene *scene, const struct scene_file *file, int token, struct error *err)
 {
-    const struct token *value = &file->list.tokens[token + 1];
-    double gamma;
-    if (is_word(file, token + 1, "srgb")) {
-        gamma = GBUFFER_GAMMA_SRGB;
-    } else if (value->kind == TOKEN_NUMBER && (value[1].kind == TOKEN_WORD || value[1].kind == TOKEN_DIRECTIVE ||
-                                               is_mark(file, token + 2, "}"))) {
-        gamma = number_value(file, token + 1);
-    } else {
-        return error_set(err, RESULT_DATA,
-                         "%s:%d: assumed_gamma must be a plain number or srgb, so that the passes can be recombined in "
-                         "the same space: write the number",
-                         file->path, file->list.tokens[token].line);
-    }
-    if (scene->working_gamma == 0)
+    bool srgb = is_word(file, token + 1, "srgb");
+    int end = srgb ? token + 2 : value_end(file, token + 1);
+    if (end == token + 1)
+        return error_set(err, RESULT_DATA, "%s:%d: assumed_gamma must be a number, an expression or srgb", file->path,
+                         file->list.tokens[token].line);
+    bool literal = srgb || (file->list.tokens[token + 1].kind == TOKEN_NUMBER && end == token + 2);
+    double gamma = srgb ? GBUFFER_GAMMA_SRGB : literal ? number_value(file, token + 1) : 0;
+    if (scene->gammas++ == 0)
         scene->working_gamma = gamma;
+    scene->needs_discovery |= !literal || scene->working_gamma != gamma;
     return RESULT_OK;
 }
 
@@ -241,29 +250,56 @@ static enum result find_include(const char *name, const char *const *directories
     return RESULT_OK;
 }
 
+/* The token after the string expression that begins at `token`. */
+static int string_end(const struct scene_file *file, int token)
+{
+    if (file->list.tokens[token].kind == TOKEN_STRING)
+        return token + 1;
+    return file->list.tokens[token].kind == TOKEN_WORD ? value_end(file, token) : token;
+}
+
+/* Whether the file's own text opens a file by the same literal name to write it. */
+static bool writes_file(const struct scene_file *file, int name)
+{
+    const struct token *tokens = file->list.tokens;
+    size_t length = tokens[name].end - tokens[name].begin;
+    for (int i = 0; i < file->list.count - 3; i++)
+        if (is_directive(file, i, "fopen") && !is_word(file, i + 3, "read") && tokens[i + 2].end - tokens[i + 2].begin == length &&
+            !memcmp(file->source.data + tokens[i + 2].begin, file->source.data + tokens[name].begin, length))
+            return true;
+    return false;
+}
+
+/* Takes `path` over, and gives the index of the file, which is read if it is new. */
+static enum result find_or_load(struct scene *scene, char *path, const char *const *directories, int directory_count,
+                                int *index, struct error *err)
+{
+    for (*index = 0; *index < scene->file_count; ++*index)
+        if (!strcmp(scene->files[*index].path, path)) {
+            free(path);
+            return RESULT_OK;
+        }
+    return load_file(scene, path, directories, directory_count, err);
+}
+
 static enum result follow_include(struct scene *scene, int index, int token, const char *const *directories,
                                   int directory_count, struct error *err)
 {
     struct scene_file *file = &scene->files[index];
     const struct token *name = &file->list.tokens[token];
-    if (name->kind != TOKEN_STRING || is_mark(file, token + 1, "+"))
-        return error_set(err, RESULT_DATA,
-                         "%s:%d: an #include by a computed name can't be followed: write the file's name in quotes",
-                         file->path, name->line);
-    char *literal = strndup(file->source.data + name->begin + 1, name->end - name->begin - 2), *path = NULL;
-    if (!literal)
-        return error_memory(err, (double)(name->end - name->begin));
-    enum result result = find_include(literal, directories, directory_count, &path, err);
-    free(literal);
-    if (result || !path)
-        return result;
-    int target = 0;
-    while (target < scene->file_count && strcmp(scene->files[target].path, path))
-        target++;
-    if (target == scene->file_count)
-        result = load_file(scene, path, directories, directory_count, err);
-    else
-        free(path);
+    int end = string_end(file, token), target = -1;
+    if (end == token)
+        return error_set(err, RESULT_DATA, "%s:%d: an #include must be followed by a file's name", file->path, name->line);
+    char *literal = NULL, *path = NULL;
+    enum result result = RESULT_OK;
+    if (name->kind == TOKEN_STRING && !writes_file(file, token)) {
+        result = text_printf(&literal, err, "%.*s", (int)(name->end - name->begin - 2), file->source.data + name->begin + 1);
+        if (!result)
+            result = find_include(literal, directories, directory_count, &path, err);
+        free(literal);
+    }
+    if (!result && path)
+        result = find_or_load(scene, path, directories, directory_count, &target, err);
     if (result)
         return result;
     file = &scene->files[index];
@@ -271,7 +307,7 @@ static enum result follow_include(struct scene *scene, int index, int token, con
         realloc(file->includes, ((size_t)file->include_count + 1) * sizeof *file->includes);
     if (!includes)
         return error_memory(err, sizeof *file->includes);
-    includes[file->include_count++] = (struct scene_include){.token = token, .file = target};
+    includes[file->include_count++] = (struct scene_include){.token = token, .end = end, .file = target};
     file->includes = includes;
     return RESULT_OK;
 }
@@ -395,6 +431,87 @@ static enum result note_choice(struct scene *scene, const struct gloss_choice *c
     return RESULT_OK;
 }
 
+static bool has_unknown_include(const struct scene_file *file)
+{
+    for (int i = 0; i < file->include_count; i++)
+        if (file->includes[i].file < 0)
+            return true;
+    return false;
+}
+
+/* The innermost conditions and macros, as one walks over a file's directives. */
+struct nesting {
+    int depth;
+    int macro, macro_depth; /* the name of the outermost macro around; 0: none */
+};
+
+static void nest(struct nesting *nesting, const struct scene_file *file, int token)
+{
+    if (opens_nesting(file, token)) {
+        nesting->depth++;
+        if (!nesting->macro && is_directive(file, token, "macro")) {
+            nesting->macro = token + 1;
+            nesting->macro_depth = nesting->depth;
+        }
+    } else if (is_directive(file, token, "end") && nesting->depth > 0) {
+        if (nesting->macro && nesting->depth == nesting->macro_depth)
+            nesting->macro = 0;
+        nesting->depth--;
+    }
+}
+
+/* Adds to `called`, which names macros that the scene may call, those that one of them may call in turn. */
+static enum result add_called(const struct scene *scene, struct buffer *called, struct error *err)
+{
+    enum result result = RESULT_OK;
+    size_t before;
+    do {
+        before = called->size;
+        for (int i = 0; !result && i < scene->file_count; i++) {
+            const struct scene_file *file = &scene->files[i];
+            struct nesting nesting = {0};
+            for (int token = 0; !result && token < file->list.count; token++) {
+                nest(&nesting, file, token);
+                if (is_mark(file, token + 1, "(") && find_name(&scene->names, file, token) >= 0 && token != nesting.macro &&
+                    (!nesting.macro || find_name(called, file, nesting.macro) >= 0))
+                    result = add_name(called, file, token, err);
+            }
+        }
+    } while (!result && called->size > before);
+    return result;
+}
+
+/* An include whose file isn't known matters unless it stands in a macro that is never called. */
+static enum result note_unknown_includes(struct scene *scene, struct error *err)
+{
+    bool unknown = false;
+    for (int i = 0; i < scene->file_count; i++)
+        unknown |= has_unknown_include(&scene->files[i]);
+    if (!unknown)
+        return RESULT_OK;
+    struct buffer called = {0};
+    enum result result = add_called(scene, &called, err);
+    for (int i = 0; !result && i < scene->file_count; i++) {
+        const struct scene_file *file = &scene->files[i];
+        struct nesting nesting = {0};
+        for (int token = 0, include = 0; include < file->include_count; token++) {
+            nest(&nesting, file, token);
+            if (token != file->includes[include].token)
+                continue;
+            if (file->includes[include++].file < 0 && (!nesting.macro || find_name(&called, file, nesting.macro) >= 0))
+                scene->needs_discovery = true;
+        }
+    }
+    buffer_free(&called);
+    return result;
+}
+
+/* What holds in a scene that says nothing. */
+static double default_gamma(const struct scene *scene)
+{
+    return scene->version >= 3.7 ? 1 : GBUFFER_GAMMA_SRGB;
+}
+
 enum result scene_load(struct scene *scene, const char *path, const struct gloss_choice *choice,
                        const char *const *directories, int directory_count, struct error *err)
 {
@@ -408,9 +525,142 @@ enum result scene_load(struct scene *scene, const char *path, const struct gloss
     const struct scene_file *main_file = &scene->files[0];
     if (is_directive(main_file, 0, "version") && main_file->list.tokens[1].kind == TOKEN_NUMBER)
         scene->version = number_value(main_file, 1);
-    if (scene->working_gamma == 0)
-        scene->working_gamma = scene->version >= 3.7 ? 1 : GBUFFER_GAMMA_SRGB;
-    return note_choice(scene, choice, err);
+    if (scene->gammas == 0)
+        scene->working_gamma = default_gamma(scene);
+    result = note_unknown_includes(scene, err);
+    return result || scene->needs_discovery ? result : note_choice(scene, choice, err);
+}
+
+static const struct scene_found *find_found(const struct scene *scene, const char *name)
+{
+    for (int i = 0; i < scene->found_count; i++)
+        if (!strcmp(scene->found[i].name, name))
+            return &scene->found[i];
+    return NULL;
+}
+
+/* An entry of the log: `include F T NAME`, `write F T NAME` or `gamma F T VALUE`, F being a file and T a token of it. */
+struct log_entry {
+    char kind; /* its first letter */
+    int file, line;
+    char *value;
+};
+
+/* Reads what was included; `changes` says that it may not always have been the same. */
+static enum result add_found(struct scene *scene, const struct log_entry *entry, bool changes, const char *folder,
+                             const char *const *directories, int directory_count, struct error *err)
+{
+    const char *name = entry->value;
+    struct scene_found *found = realloc(scene->found, ((size_t)scene->found_count + 1) * sizeof *found);
+    if (!found)
+        return error_memory(err, sizeof *found);
+    scene->found = found;
+    found += scene->found_count;
+    *found = (struct scene_found){.name = strdup(name), .file = scene->file_count};
+    if (!found->name)
+        return error_memory(err, (double)strlen(name));
+    scene->found_count++;
+    char *path;
+    enum result result = find_include(name, &folder, 1, &path, err);
+    bool written = !result && path && name[0] != '/';
+    if (!result && !path)
+        result = find_include(name, directories, directory_count, &path, err);
+    if (result)
+        return result;
+    if (!path)
+        return error_set(err, RESULT_DATA, "%s:%d: %s, which this #include names, isn't found: write the whole name of a "
+                         "file in the scene's folder or in one of +L", scene->files[entry->file].path, entry->line, name);
+    if (!written)
+        return find_or_load(scene, path, directories, directory_count, &found->file, err);
+    result = load_file(scene, path, directories, directory_count, err);
+    if (result)
+        return result;
+    struct scene_file *file = &scene->files[found->file];
+    file->written = true;
+    strcpy(file->path, name);
+    /* What was in it before is gone. */
+    if (changes && memchr(file->source.data, '{', file->source.size))
+        return error_set(err, RESULT_DATA,
+                         "%s:%d: %s is written by the scene itself more than once, and may hold something else each time "
+                         "that it is included: write several files",
+                         scene->files[entry->file].path, entry->line, name);
+    if (changes)
+        scene->found[scene->found_count - 1].file = -1;
+    return RESULT_OK;
+}
+
+/* Cuts the next entry off at *text, which it changes; false where there is none, or another line. */
+static bool next_entry(const struct scene *scene, char **text, struct log_entry *entry)
+{
+    int token, length = 0;
+    char *at = *text, *end = strchr(at, '\n');
+    entry->kind = *at;
+    if (!strchr("giw", *at) || sscanf(at, "%*s %d %d %n", &entry->file, &token, &length) != 2)
+        return false;
+    if (!end || !length || entry->file < 0 || entry->file >= scene->file_count || token < 0 ||
+        token >= scene->files[entry->file].list.count)
+        return false;
+    *end = 0;
+    *text = end + 1;
+    entry->line = scene->files[entry->file].list.tokens[token].line;
+    entry->value = at + length;
+    return true;
+}
+
+/* The number of entries of a kind with this value. */
+static int count_entries(const struct scene *scene, const struct input_file *log, char kind, const char *value)
+{
+    int count = 0;
+    char *copy = strndup((const char *)log->data, log->size), *at = copy;
+    struct log_entry entry;
+    while (copy && next_entry(scene, &at, &entry))
+        count += entry.kind == kind && !strcmp(entry.value, value);
+    free(copy);
+    return count;
+}
+
+static enum result take_entries(struct scene *scene, const struct input_file *log, const char *folder,
+                                const char *const *directories, int directory_count, struct error *err)
+{
+    char *text = strndup((const char *)log->data, log->size), *at = text;
+    if (!text)
+        return error_memory(err, (double)log->size);
+    enum result result = RESULT_OK;
+    struct log_entry entry;
+    bool settled = false;
+    scene->working_gamma = default_gamma(scene);
+    while (!result && next_entry(scene, &at, &entry)) {
+        if (entry.kind == 'g' && !settled) {
+            settled = true;
+            scene->working_gamma = strcmp(entry.value, "srgb") ? strtod(entry.value, NULL) : GBUFFER_GAMMA_SRGB;
+        } else if (entry.kind == 'i' && !find_found(scene, entry.value)) {
+            bool changes = count_entries(scene, log, 'i', entry.value) > 1 && count_entries(scene, log, 'w', entry.value) > 1;
+            result = add_found(scene, &entry, changes, folder, directories, directory_count, err);
+        }
+    }
+    free(text);
+    return result;
+}
+
+enum result scene_discover(struct scene *scene, const char *folder, const char *const *directories,
+                           int directory_count, bool *again, struct error *err)
+{
+    int files = scene->file_count, gammas = scene->gammas;
+    char *path;
+    struct input_file log = {0};
+    enum result result = text_printf(&path, err, "%s/" SCENE_DISCOVERY_LOG, folder);
+    if (!result)
+        result = input_file_read(path, &log, err);
+    if (!result)
+        result = take_entries(scene, &log, folder, directories, directory_count, err);
+    *again = scene->gammas > gammas;
+    for (int i = files; i < scene->file_count; i++)
+        *again |= has_unknown_include(&scene->files[i]);
+    if (!result && !*again)
+        result = note_choice(scene, scene->choice, err);
+    input_file_free(&log);
+    free(path);
+    return result;
 }
 
 void scene_free(struct scene *scene)
@@ -422,6 +672,9 @@ void scene_free(struct scene *scene)
         token_list_free(&scene->files[i].list);
     }
     free(scene->files);
+    for (int i = 0; i < scene->found_count; i++)
+        free(scene->found[i].name);
+    free(scene->found);
     buffer_free(&scene->names);
     buffer_free(&scene->lights);
     buffer_free(&scene->arrays);
@@ -438,6 +691,8 @@ struct writer {
     const struct rules *rules;
     enum scene_copy copy;
     size_t at;       /* the source up to here is written */
+    int local;       /* the next #local to be written as #declare, and what is around it */
+    struct nesting nesting;
     int value_name;  /* the name in the last #declare of a block */
     int value_end;   /* the token after that block: a texture there is a further layer */
     bool given;      /* in the declaration of a name that the user chose to be glossy */
@@ -447,11 +702,31 @@ struct writer {
     struct buffer out;
 };
 
+/* A #local of the scene outside macros is one of the top level, and global; in a copy, which is included, it would not be. */
+static bool is_global_local(const struct writer *writer)
+{
+    return writer->file == writer->scene->files && is_directive(writer->file, writer->local, "local") &&
+           !writer->nesting.macro;
+}
+
 static enum result copy_to(struct writer *writer, size_t end, struct error *err)
 {
-    if (end <= writer->at)
-        return RESULT_OK;
-    enum result result = buffer_add(&writer->out, writer->file->source.data + writer->at, end - writer->at, err);
+    const struct token *tokens = writer->file->list.tokens;
+    const char *source = writer->file->source.data;
+    enum result result = RESULT_OK;
+    for (; !result && writer->local < writer->file->list.count && tokens[writer->local].begin < end; writer->local++) {
+        nest(&writer->nesting, writer->file, writer->local);
+        const struct token *local = &tokens[writer->local];
+        if (local->begin < writer->at || !is_global_local(writer))
+            continue;
+        result = buffer_add(&writer->out, source + writer->at, local->begin - writer->at, err);
+        if (!result)
+            result = buffer_add_text(&writer->out, "#declare", err);
+        writer->at = local->end;
+    }
+    if (result || end <= writer->at)
+        return result;
+    result = buffer_add(&writer->out, source + writer->at, end - writer->at, err);
     writer->at = end;
     return result;
 }
@@ -533,6 +808,31 @@ static enum result replace_block(struct writer *writer, int token, int last, con
     return result ? result : buffer_add_text(&writer->out, text, err);
 }
 
+/* In global_settings of a discovery copy: every assumed_gamma goes to the log. */
+static enum result write_gamma_log(struct writer *writer, int first, int end, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int i = first; !result && i < end; i++) {
+        if (!is_word(writer->file, i, "assumed_gamma"))
+            continue;
+        int file = (int)(writer->file - writer->scene->files);
+        if (is_word(writer->file, i + 1, "srgb")) {
+            result = insert_before(writer, i, "", err);
+            if (!result)
+                result = buffer_printf(&writer->out, err, SCENE_DISCOVERY_WRITE("\"gamma %d %d srgb\""), file, i);
+            continue;
+        }
+        result = replace(writer, i, i, "#declare povgloss_gamma =", err);
+        if (!result)
+            result = insert_after(writer, value_end(writer->file, i + 1) - 1, "; ", err);
+        if (!result)
+            result = buffer_printf(&writer->out, err,
+                                   SCENE_DISCOVERY_WRITE("\"gamma %d %d \", str(povgloss_gamma, 0, 9)")
+                                   "assumed_gamma povgloss_gamma ", file, i);
+    }
+    return result;
+}
+
 /* camera, global_settings, background ... : statements that no union may contain. */
 static enum result write_statement(struct writer *writer, int token, int last, struct error *err)
 {
@@ -545,6 +845,8 @@ static enum result write_statement(struct writer *writer, int token, int last, s
         result = insert_before(writer, token, "povgloss_modifiers() } ", err);
     if (!result && settings && writer->rules->technical)
         result = write_technical_settings(writer, token + 2, last, err);
+    if (!result && settings && writer->rules->discovery)
+        result = write_gamma_log(writer, token + 2, last, err);
     if (!result && camera && writer->scene->focal_blur)
         result = insert_before(writer, last, " povgloss_camera() ", err);
     if (!result && statements != STATEMENTS_STAY)
@@ -825,10 +1127,8 @@ static enum result write_finish_item(struct writer *writer, int token, int *next
 
 static void track_directive(struct writer *writer, int token)
 {
-    static const char *const openers[] = {"if", "ifdef", "ifndef", "while", "for", "switch", "macro", NULL};
-    for (int i = 0; openers[i]; i++)
-        if (is_directive(writer->file, token, openers[i]) && writer->conditions < MAX_CONDITIONS)
-            writer->is_macro[writer->conditions++] = !strcmp(openers[i], "macro");
+    if (opens_nesting(writer->file, token) && writer->conditions < MAX_CONDITIONS)
+        writer->is_macro[writer->conditions++] = is_directive(writer->file, token, "macro");
     if (is_directive(writer->file, token, "end") && writer->conditions > 0)
         writer->conditions--;
     writer->in_macro = false;
@@ -836,13 +1136,44 @@ static void track_directive(struct writer *writer, int token)
         writer->in_macro |= writer->is_macro[i];
 }
 
+/* `#include EXPRESSION` becomes `#declare povgloss_name = EXPRESSION; ... #include povgloss_name`, and in between the names of
+ * the files that were found become those of their copies. */
+static enum result write_unknown_include(struct writer *writer, const struct scene_include *include, struct error *err)
+{
+    const struct scene *scene = writer->scene;
+    enum result result = replace(writer, include->token - 1, include->token - 1, "#declare povgloss_name =", err);
+    if (!result)
+        result = insert_after(writer, include->end - 1, "; ", err);
+    if (!result && writer->rules->discovery)
+        result = buffer_printf(&writer->out, err, SCENE_DISCOVERY_WRITE("\"include %d %d \", povgloss_name"),
+                               (int)(writer->file - scene->files), include->token);
+    for (int i = 0; !result && i < scene->found_count; i++) {
+        char *copy = NULL;
+        if (scene->found[i].file < 0)
+            continue;
+        result = scene_copy_name(scene, writer->copy, scene->found[i].file, &copy, err);
+        if (!result)
+            result = buffer_add_text(&writer->out, "#if (strcmp(povgloss_name, \"", err);
+        for (const char *c = scene->found[i].name; !result && *c; c++)
+            result = buffer_printf(&writer->out, err, "%s%c", *c == '"' || *c == '\\' ? "\\" : "", *c);
+        if (!result)
+            result = buffer_printf(&writer->out, err, "\") = 0) #declare povgloss_name = \"%s\"; #end ", copy);
+        free(copy);
+    }
+    return result ? result : buffer_add_text(&writer->out, "#include povgloss_name", err);
+}
+
 static enum result write_include(struct writer *writer, int token, struct error *err)
 {
     for (int i = 0; i < writer->file->include_count; i++) {
-        if (writer->file->includes[i].token != token)
+        const struct scene_include *include = &writer->file->includes[i];
+        if (include->token != token)
             continue;
+        if (include->file < 0)
+            return writer->rules->discovery || writer->scene->found_count ? write_unknown_include(writer, include, err)
+                                                                          : RESULT_OK;
         char *name = NULL, *quoted = NULL;
-        enum result result = scene_copy_name(writer->scene, writer->copy, writer->file->includes[i].file, &name, err);
+        enum result result = scene_copy_name(writer->scene, writer->copy, include->file, &name, err);
         if (!result)
             result = text_printf(&quoted, err, "\"%s\"", name);
         if (!result)
@@ -852,6 +1183,21 @@ static enum result write_include(struct writer *writer, int token, struct error 
         return result;
     }
     return RESULT_OK;
+}
+
+/* Of a discovery copy: the name in `#fopen X NAME write` goes to the log. */
+static enum result write_opening_log(struct writer *writer, int token, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int name = token + 2, end = name < file->list.count ? string_end(file, name) : name;
+    if (end == name || is_word(file, end, "read"))
+        return RESULT_OK;
+    size_t begin = file->list.tokens[name].begin;
+    enum result result = insert_before(writer, token, "", err);
+    return result ? result
+                  : buffer_printf(&writer->out, err, SCENE_DISCOVERY_WRITE("\"write %d %d \", %.*s"),
+                                  (int)(file - writer->scene->files), name,
+                                  (int)(file->list.tokens[end - 1].end - begin), file->source.data + begin);
 }
 
 static enum result write_tokens(struct writer *writer, int first, int end, struct error *err)
@@ -864,6 +1210,8 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
             track_directive(writer, i);
             if (is_directive(file, i, "include"))
                 result = write_include(writer, i + 1, err);
+            else if (is_directive(file, i, "fopen") && writer->rules->discovery)
+                result = write_opening_log(writer, i, err);
             else if (is_directive(file, i, "default") && writer->rules->coded && opens_block(file, i))
                 next = file->list.tokens[i + 1].match + 1;
         } else if (file->list.tokens[i].kind == TOKEN_WORD) {
