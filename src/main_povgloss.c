@@ -9,6 +9,7 @@
 #include "passes.h"
 #include "passes_file.h"
 #include "povray_switches.h"
+#include "scene_list.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -18,9 +19,11 @@
 static const char help[] =
     "usage: povgloss render SCENE.pov [POV-Ray switches] [options] -o IMAGE\n"
     "       povgloss passes SCENE.pov [POV-Ray switches] [options] -o PASSES.exr\n"
+    "       povgloss list SCENE.pov [POV-Ray switches]\n"
     "\n"
     "Glossy reflections for POV-Ray scenes that say Gloss(300) in a finish (povgloss.inc).\n"
-    "render draws the glossy image; passes writes what glossfilter needs to draw it, again and again.\n"
+    "render draws the glossy image; passes writes what glossfilter needs to draw it, again and again;\n"
+    "list shows the finishes that reflect, and the exponent that each has or that --gloss auto gives it.\n"
     "POV-Ray's switches (+W640 +H480 +A0.3 +Ldir Declare=x=1 file.ini) go to POV-Ray as they are.\n"
     "\n"
     "Scene:\n"
@@ -44,7 +47,7 @@ static const char help_end[] =
     "Exit status: 0 ok, 2 wrong command line, 3 file, data or memory, 4 POV-Ray failed.\n";
 
 struct command {
-    bool passes_only;
+    bool passes_only, list;
     const char *scene, *output;
     const char *depfile; /* NULL: none */
     struct passes_options passes;
@@ -138,6 +141,11 @@ static enum result check_command(struct command *command, const struct povray_sw
     }
     if (!command->scene)
         return error_set(err, RESULT_USAGE, "no scene: name a .pov file");
+    if (command->list && (command->output || command->filter_options_used))
+        return error_set(err, RESULT_USAGE, "povgloss list takes a scene and POV-Ray's switches, and writes to standard "
+                         "output");
+    if (command->list)
+        return RESULT_OK;
     if (!command->output)
         return error_set(err, RESULT_USAGE, "no output: add -o FILE (or -o - for standard output)");
     if (command->depfile && !strcmp(command->output, "-"))
@@ -165,11 +173,12 @@ static enum result parse(int argc, char **argv, struct command *command, struct 
     if (argc < 2)
         return error_set(err, RESULT_USAGE, "no command: povgloss render SCENE -o IMAGE, or see povgloss --help");
     int index = 1;
-    if (!strcmp(argv[1], "render") || !strcmp(argv[1], "passes")) {
+    if (!strcmp(argv[1], "render") || !strcmp(argv[1], "passes") || !strcmp(argv[1], "list")) {
         command->passes_only = argv[1][0] == 'p';
+        command->list = argv[1][0] == 'l';
         index = 2;
     } else if (argv[1][0] != '-') {
-        return error_set(err, RESULT_USAGE, "unknown command %s: render or passes, see povgloss --help", argv[1]);
+        return error_set(err, RESULT_USAGE, "unknown command %s: render, passes or list, see povgloss --help", argv[1]);
     }
     enum result result = RESULT_OK;
     while (!result && index < argc)
@@ -177,7 +186,7 @@ static enum result parse(int argc, char **argv, struct command *command, struct 
     if (result || command->help || command->version)
         return result;
     if (argv[1][0] == '-')
-        return error_set(err, RESULT_USAGE, "no command: write render or passes first, see povgloss --help");
+        return error_set(err, RESULT_USAGE, "no command: write render, passes or list first, see povgloss --help");
     return check_command(command, switches, err);
 }
 
@@ -223,6 +232,30 @@ static enum result check_place(const char *path, struct error *err)
     enum result result = output_file_open(&file, path, err);
     if (!result)
         output_file_abort(&file);
+    return result;
+}
+
+static enum result list(struct command *command, const struct povray_switches *switches, struct error *err)
+{
+    struct passes_options *passes = &command->passes;
+    struct scene scene = {0};
+    struct buffer text = {0};
+    int count = 0;
+    passes->scene = command->scene;
+    passes->libraries = switches->libraries;
+    passes->library_count = switches->library_count;
+    enum result result = passes_load_scene(passes, &scene, err);
+    if (!result)
+        result = scene_list(&scene, &text, &count, err);
+    if (!result && count > 0 && (fputs(text.data, stdout) < 0 || fflush(stdout)))
+        result = error_set(err, RESULT_DATA, "standard output: cannot be written");
+    if (!result && scene.needs_discovery)
+        fprintf(stderr, "povgloss: warning: %s: files that are included by names that POV-Ray computes aren't looked into\n",
+                command->scene);
+    if (!result && count == 0)
+        fprintf(stderr, "povgloss: %s: no finish reflects\n", command->scene);
+    buffer_free(&text);
+    scene_free(&scene);
     return result;
 }
 
@@ -290,6 +323,8 @@ int main(int argc, char **argv)
         printf("%s%s%s", help, cli_filter_help, help_end);
     else if (!result && command.version)
         printf("povgloss %s\n", POVGLOSS_VERSION);
+    else if (!result && command.list)
+        result = list(&command, &switches, &err);
     else if (!result)
         result = run(&command, &switches, &err);
     if (!result && (command.help || command.version) && (fflush(stdout) || ferror(stdout)))

@@ -156,12 +156,49 @@ static enum result find_directories(struct run *run, const char *ini, struct err
         result = add_directory(run, slash ? scene_folder : ".", err);
     free(scene_folder);
     run->linked_count = run->directory_count;
+    return result || !ini ? result : add_ini_directories(run, ini, err);
+}
+
+static enum result link_directories(const struct run *run, struct error *err)
+{
+    enum result result = RESULT_OK;
     for (int i = 0; !result && i < run->linked_count; i++) {
         char name[32];
         snprintf(name, sizeof name, "lib%d", i);
         result = work_folder_link(&run->folder, name, run->directories[i], err);
     }
-    return result || !ini ? result : add_ini_directories(run, ini, err);
+    return result;
+}
+
+static void free_directories(struct run *run)
+{
+    for (int i = 0; i < run->directory_count; i++) {
+        free(run->directories[i]);
+        free(run->directory_names[i]);
+    }
+    free(run->directories);
+    free(run->directory_names);
+}
+
+static enum result load_scene(struct run *run, const char *ini, struct error *err)
+{
+    enum result result = find_directories(run, ini, err);
+    return result ? result
+                  : scene_load(&run->scene, run->options->scene, &run->options->gloss,
+                               (const char *const *)run->directories, run->directory_count, err);
+}
+
+enum result passes_load_scene(const struct passes_options *options, struct scene *scene, struct error *err)
+{
+    struct run run = {.options = options};
+    char *ini = NULL;
+    enum result result = find_ini(&ini, err);
+    if (!result)
+        result = load_scene(&run, ini, err);
+    *scene = run.scene;
+    free_directories(&run);
+    free(ini);
+    return result;
 }
 
 /* ---- running ---- */
@@ -393,8 +430,8 @@ static enum result discover(struct run *run, struct error *err)
         if (!result)
             result = run_discovery(run, name, folder, err);
         if (!result)
-            result = scene_discover(&run->scene, folder, (const char *const *)run->directories, run->directory_count,
-                                    &again, err);
+            result = scene_discover(&run->scene, folder, (const char *const *)run->directories, run->directory_count, &again,
+                                    err);
         buffer_free(&text);
         free(folder);
     }
@@ -470,9 +507,9 @@ enum result passes_render(const struct passes_options *options, struct gbuffer *
     if (!result)
         result = work_folder_make(&run.folder, options->keep, err);
     if (!result)
-        result = find_directories(&run, ini, err);
+        result = load_scene(&run, ini, err);
     if (!result)
-        result = scene_load(&run.scene, options->scene, &options->gloss, (const char *const *)run.directories, run.directory_count, err);
+        result = link_directories(&run, err);
     if (!result)
         result = work_folder_add(&run.folder, "copies", err);
     if (!result)
@@ -496,12 +533,7 @@ enum result passes_render(const struct passes_options *options, struct gbuffer *
         gbuffer_free(gbuffer);
     povray_jobs_free(run.jobs, run.job_count);
     scene_free(&run.scene);
-    for (int i = 0; i < run.directory_count; i++) {
-        free(run.directories[i]);
-        free(run.directory_names[i]);
-    }
-    free(run.directories);
-    free(run.directory_names);
+    free_directories(&run);
     free(run.environment);
     free(run.variables[0]);
     free(run.variables[1]);

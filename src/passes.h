@@ -15,6 +15,7 @@
 #include "gbuffer.h"
 #include "povray.h"
 #include "scene_rewrite.h"
+#include "scene_rewrite.h"
 
 struct passes_options {
     const char *scene;             /* path of the .pov file */
@@ -39,5 +40,8 @@ struct passes_options {
  * a warning worth a line to the user, or empty. No folder (but `keep`) and no process is left. */
 MUST_CHECK enum result passes_render(const struct passes_options *options, struct gbuffer *gbuffer, struct error *note,
                                      struct error *err);
+
+/* Reads the scene as passes_render does, and runs nothing; the caller frees it, also after a failure. */
+MUST_CHECK enum result passes_load_scene(const struct passes_options *options, struct scene *scene, struct error *err);
 
 #endif

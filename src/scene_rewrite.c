@@ -10,6 +10,7 @@
 #include "gbuffer.h"
 #include "input_file.h"
 #include "lobe.h"
+#include "scene_tokens.h"
 
 #include <assert.h>
 #include <ctype.h>
@@ -53,36 +54,6 @@ static const struct rules copy_rules[SCENE_COPY_COUNT] = {
     [SCENE_COPY_DISCOVERY] = {"discovery", STATEMENTS_STAY, .lights = true, .discovery = true},
 };
 
-static bool in_list(const struct scene_file *file, int token, const char *const *words)
-{
-    for (; *words; words++)
-        if (token_is(&file->source, &file->list.tokens[token], TOKEN_WORD, *words))
-            return true;
-    return false;
-}
-
-static bool is_word(const struct scene_file *file, int token, const char *word)
-{
-    return token >= 0 && token < file->list.count &&
-           token_is(&file->source, &file->list.tokens[token], TOKEN_WORD, word);
-}
-
-static bool is_mark(const struct scene_file *file, int token, const char *mark)
-{
-    return token >= 0 && token < file->list.count &&
-           token_is(&file->source, &file->list.tokens[token], TOKEN_MARK, mark);
-}
-
-static bool is_directive(const struct scene_file *file, int token, const char *word)
-{
-    return token >= 0 && token_is(&file->source, &file->list.tokens[token], TOKEN_DIRECTIVE, word);
-}
-
-static double number_value(const struct scene_file *file, int token)
-{
-    return strtod(file->source.data + file->list.tokens[token].begin, NULL);
-}
-
 /* The token that says what kind of block an opening brace begins: `union {`, `function (x, y) {`, `function 9, 9 {`. */
 static int block_keyword(const struct scene_file *file, int brace)
 {
@@ -119,51 +90,7 @@ static bool inside(const struct scene_file *file, int token, const char *keyword
     return false;
 }
 
-static bool opens_block(const struct scene_file *file, int token)
-{
-    return is_mark(file, token + 1, "{") && file->list.tokens[token + 1].match > 0;
-}
-
-/* Whether the directive is closed by an #end. */
-static bool opens_nesting(const struct scene_file *file, int token)
-{
-    static const char *const openers[] = {"if", "ifdef", "ifndef", "while", "for", "switch", "macro", NULL};
-    for (int i = 0; openers[i]; i++)
-        if (is_directive(file, token, openers[i]))
-            return true;
-    return false;
-}
-
 /* ---- reading ---- */
-
-static const char *base_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
-/* The index of the word at `token` in a list of names, or -1. */
-static int find_name(const struct buffer *names, const struct scene_file *file, int token)
-{
-    if (token < 0 || file->list.tokens[token].kind != TOKEN_WORD)
-        return -1;
-    const char *word = file->source.data + file->list.tokens[token].word;
-    size_t length = file->list.tokens[token].word_length;
-    int index = 0;
-    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1, index++)
-        if (strlen(names->data + at) == length && !memcmp(names->data + at, word, length))
-            return index;
-    return -1;
-}
-
-static enum result add_name(struct buffer *names, const struct scene_file *file, int token, struct error *err)
-{
-    if (find_name(names, file, token) >= 0)
-        return RESULT_OK;
-    enum result result = buffer_add(names, file->source.data + file->list.tokens[token].word,
-                                    file->list.tokens[token].word_length, err);
-    return result ? result : buffer_add(names, "", 1, err);
-}
 
 /* Notes that something is glossy with this exponent; negative: it is known to POV-Ray only. */
 static void note_exponent(struct scene *scene, double exponent)
@@ -187,15 +114,6 @@ static void note_gloss(struct scene *scene, const struct scene_file *file, int t
     note_exponent(scene, exponent);
 }
 
-static bool is_zero(const struct scene_file *file, int token)
-{
-    static const char *const operators[] = {"+", "-", "*", "/", NULL};
-    bool zero = file->list.tokens[token].kind == TOKEN_NUMBER && number_value(file, token) == 0;
-    for (int i = 0; zero && operators[i]; i++)
-        zero = !is_mark(file, token + 1, operators[i]);
-    return zero;
-}
-
 /* A `reflection` makes a plain mirror unless its finish is glossy or it is the number 0. */
 static bool is_plain_mirror(const struct scene_file *file, int token)
 {
@@ -212,8 +130,6 @@ static bool is_plain_mirror(const struct scene_file *file, int token)
     }
     return !zero && (!gloss || conditional);
 }
-
-static int value_end(const struct scene_file *file, int token);
 
 /* The first assumed_gamma of a scene is the one that POV-Ray takes: which of several that is, only POV-Ray knows. */
 static enum result note_gamma(struct scene *scene, const struct scene_file *file, int token, struct error *err)
@@ -437,27 +353,6 @@ static bool has_unknown_include(const struct scene_file *file)
         if (file->includes[i].file < 0)
             return true;
     return false;
-}
-
-/* The innermost conditions and macros, as one walks over a file's directives. */
-struct nesting {
-    int depth;
-    int macro, macro_depth; /* the name of the outermost macro around; 0: none */
-};
-
-static void nest(struct nesting *nesting, const struct scene_file *file, int token)
-{
-    if (opens_nesting(file, token)) {
-        nesting->depth++;
-        if (!nesting->macro && is_directive(file, token, "macro")) {
-            nesting->macro = token + 1;
-            nesting->macro_depth = nesting->depth;
-        }
-    } else if (is_directive(file, token, "end") && nesting->depth > 0) {
-        if (nesting->macro && nesting->depth == nesting->macro_depth)
-            nesting->macro = 0;
-        nesting->depth--;
-    }
 }
 
 /* Adds to `called`, which names macros that the scene may call, those that one of them may call in turn. */
@@ -1038,38 +933,6 @@ static bool in_layer(const struct scene_file *file, int token)
         if (is_word(file, brace - 1, "texture") && is_layer(file, brace - 1))
             return true;
     return false;
-}
-
-/* The token after the value that begins at `token`; of the operators in it, the four of arithmetic are followed. */
-static int value_end(const struct scene_file *file, int token)
-{
-    for (;;) {
-        while (is_mark(file, token, "+") || is_mark(file, token, "-"))
-            token++;
-        if (is_mark(file, token, "<"))
-            while (token < file->list.count - 1 && !is_mark(file, token, ">"))
-                token++;
-        else if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
-            token = file->list.tokens[token].match;
-        else if (file->list.tokens[token].kind != TOKEN_NUMBER && file->list.tokens[token].kind != TOKEN_WORD)
-            return token;
-        token++;
-        for (;;) {
-            if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
-                token = file->list.tokens[token].match + 1;
-            else if (is_mark(file, token, "["))
-                while (token < file->list.count - 1 && !is_mark(file, token++, "]"))
-                    ;
-            else if (is_mark(file, token, "."))
-                token += 2;
-            else
-                break;
-        }
-        if (!is_mark(file, token, "+") && !is_mark(file, token, "-") && !is_mark(file, token, "*") &&
-            !is_mark(file, token, "/"))
-            return token;
-        token++;
-    }
 }
 
 /* filter and transmit of a colour become 0, but for the upper layers of a texture, which let the lower ones through:

@@ -7,8 +7,8 @@ rows='error preload_reads
 interrupt cpu mem lobe gamma
 image gbuffer weights bands input_file output_file
 exr_io png_io position_code eye interpolate filter_kernel child scene_lexer gloss_choice povray_switches work_folder depfile
-passes_file image_file filter compose povray scene_rewrite
-pass_scene pass_images reads
+passes_file image_file filter compose povray scene_rewrite scene_tokens
+pass_scene pass_images reads scene_list
 passes
 cli
 main_glossfilter main_povgloss'
