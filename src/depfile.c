@@ -15,8 +15,8 @@ enum result depfile_check_name(const char *name, struct error *err)
         control |= (unsigned char)*c < ' ';
     if (length && !control && !strpbrk(name, "%;=|") && name[0] != '~' && !strchr(" &\\", name[length - 1]))
         return RESULT_OK;
-    return error_set(err, RESULT_DATA, "%s: make can't take this name in a rule: rename the file, or leave --depfile out",
-                     name);
+    return error_set(err, RESULT_DATA,
+                     "%s: make can't take this name in a rule: rename the file, or leave --depfile out", name);
 }
 
 static enum result add_name(struct buffer *rule, const char *name, struct error *err)

@@ -142,8 +142,8 @@ static enum result check_command(struct command *command, const struct povray_sw
     if (!command->scene)
         return error_set(err, RESULT_USAGE, "no scene: name a .pov file");
     if (command->list && (command->output || command->filter_options_used))
-        return error_set(err, RESULT_USAGE, "povgloss list takes a scene and POV-Ray's switches, and writes to standard "
-                         "output");
+        return error_set(err, RESULT_USAGE,
+                         "povgloss list takes a scene and POV-Ray's switches, and writes to standard output");
     if (command->list)
         return RESULT_OK;
     if (!command->output)
@@ -250,7 +250,8 @@ static enum result list(struct command *command, const struct povray_switches *s
     if (!result && count > 0 && (fputs(text.data, stdout) < 0 || fflush(stdout)))
         result = error_set(err, RESULT_DATA, "standard output: cannot be written");
     if (!result && scene.needs_discovery)
-        fprintf(stderr, "povgloss: warning: %s: files that are included by names that POV-Ray computes aren't looked into\n",
+        fprintf(stderr,
+                "povgloss: warning: %s: files that are included by names that POV-Ray computes aren't looked into\n",
                 command->scene);
     if (!result && count == 0)
         fprintf(stderr, "povgloss: %s: no finish reflects\n", command->scene);

@@ -47,7 +47,8 @@ extern const struct pass pass_table[PASS_COUNT];
 /* Marks the kinds of copies that the pass includes. */
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT]);
 
-/* Appends the scene that includes the discovery copy, writes "end" to its log, and stops by an error: nothing is rendered. */
+/* Appends the scene that includes the discovery copy, writes "end" to its log, and stops by an error: nothing is
+ * rendered. */
 MUST_CHECK enum result pass_discovery_text(const struct scene *scene, struct buffer *text, struct error *err);
 
 /* Appends the pass's scene, which includes the copies' main files by their names. */

@@ -33,7 +33,8 @@ struct run {
 };
 
 /* Makes the folder and writes the scene in it that POV-Ray reads. */
-static enum result write_wrapper(const struct run *run, const char *folder, const struct buffer *text, struct error *err)
+static enum result write_wrapper(const struct run *run, const char *folder, const struct buffer *text,
+                                 struct error *err)
 {
     char *path = NULL;
     enum result result = work_folder_add(&run->folder, folder, err);
@@ -342,8 +343,8 @@ static enum result report_failure(const struct run *run, const struct povray_job
     return RESULT_POVRAY;
 }
 
-/* The environment with POVINI set to the .ini file that holds where povgloss was started (NULL: none), and LD_PRELOAD where
- * what is read is to be noted. */
+/* The environment with POVINI set to the .ini file that holds where povgloss was started (NULL: none), and LD_PRELOAD
+ * where what is read is to be noted. */
 static enum result make_environment(struct run *run, const char *ini, struct error *err)
 {
     bool reads = run->options->reads;
@@ -386,7 +387,8 @@ static void no_progress(void *context, double done)
     (void)done;
 }
 
-/* POV-Ray parses the scene and is stopped by the wrapper before it draws: that is a success if the log has its last line. */
+/* POV-Ray parses the scene and is stopped by the wrapper before it draws: that is a success if the log has its last
+ * line. */
 static enum result run_discovery(struct run *run, const char *name, const char *folder, struct error *err)
 {
     char **arguments = NULL, *path = NULL;
@@ -430,8 +432,8 @@ static enum result discover(struct run *run, struct error *err)
         if (!result)
             result = run_discovery(run, name, folder, err);
         if (!result)
-            result = scene_discover(&run->scene, folder, (const char *const *)run->directories, run->directory_count, &again,
-                                    err);
+            result = scene_discover(&run->scene, folder, (const char *const *)run->directories,
+                                    run->directory_count, &again, err);
         buffer_free(&text);
         free(folder);
     }

@@ -1,8 +1,8 @@
 /* A shared object of its own, loaded into POV-Ray by LD_PRELOAD: notes the files that are opened by fopen, the one
  * function by which POV-Ray opens files, and goes on as ever.
  *
- * Each entry of ../reads.log (reads.h), if that file is there, is `r` or `w` (for reading or writing), the name as it was
- * given, and NUL.
+ * Each entry of ../reads.log (reads.h), if that file is there, is `r` or `w` (for reading or writing), the name as it
+ * was given, and NUL.
  */
 #include <dlfcn.h>
 #include <errno.h>

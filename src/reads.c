@@ -1,5 +1,5 @@
-/* The log is read whole, each name is turned into the user's, and the list is sorted: passes that run at the same time write
- * their entries in any order. */
+/* The log is read whole, each name is turned into the user's, and the list is sorted: passes that run at the same time
+ * write their entries in any order. */
 #include "reads.h"
 
 #include "input_file.h"
@@ -149,8 +149,10 @@ enum result reads_collect(const struct work_folder *folder, const struct reads_p
         free(name);
     }
     if (!result && !noted)
-        result = error_set(err, RESULT_DATA, "%s: what POV-Ray reads can't be noted, and --depfile needs it: POV-Ray must "
-                           "be a program to which LD_PRELOAD applies", scene);
+        result = error_set(err, RESULT_DATA,
+                           "%s: what POV-Ray reads can't be noted, and --depfile needs it: POV-Ray must be a program "
+                           "to which LD_PRELOAD applies",
+                           scene);
     if (!result)
         result = buffer_add(files, scene, strlen(scene) + 1, err);
     if (!result)

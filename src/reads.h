@@ -16,8 +16,8 @@ struct reads_places {
     int switch_count;
 };
 
-/* Makes the empty log and the link to the shared object, ../lib/povgloss_reads.so from the program's folder. RESULT_DATA
- * where that isn't there. */
+/* Makes the empty log and the link to the shared object, ../lib/povgloss_reads.so from the program's folder.
+ * RESULT_DATA where that isn't there. */
 MUST_CHECK enum result reads_begin(const struct work_folder *folder, struct error *err);
 
 /* The variable LD_PRELOAD=... for the environment of POV-Ray, with what it holds now. The caller frees it. */

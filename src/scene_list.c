@@ -1,4 +1,5 @@
-/* Three steps: which token stands in which declaration, which declared names the scene uses, and what each finish says. */
+/* Three steps: which token stands in which declaration, which declared names the scene uses, and what each finish
+ * says. */
 #include "scene_list.h"
 
 #include "lobe.h"
@@ -90,7 +91,8 @@ static enum result words_make(const struct scene *scene, struct words **all, str
     return *all ? RESULT_OK : error_memory(err, (double)scene->file_count * sizeof **all);
 }
 
-/* Marks the names that the scene's own file and what stands outside declarations use, and those that these use in turn. */
+/* Marks the names that the scene's own file and what stands outside declarations use, and those that these use in
+ * turn. */
 static void mark_used(const struct scene *scene, const struct words *words, bool *used)
 {
     bool more = true;
@@ -106,7 +108,8 @@ static void mark_used(const struct scene *scene, const struct words *words, bool
 }
 
 /* The opening brace of the finish that is declared by the name at a token; NULL: none. */
-static const struct scene_file *find_finish(const struct scene *scene, const struct scene_file *from, int name, int *brace)
+static const struct scene_file *find_finish(const struct scene *scene, const struct scene_file *from, int name,
+                                            int *brace)
 {
     const struct token *word = &from->list.tokens[name];
     for (int i = 0; word->kind == TOKEN_WORD && i < scene->file_count; i++) {
@@ -136,7 +139,8 @@ static void read_finish(const struct scene *scene, const struct scene_file *file
         read_finish(scene, declared, inner, depth + 1, finish);
     bool glossy = finish->exponent && in_list(finish->exponent_file, finish->exponent, gloss);
     for (int token = brace + 1; token < file->list.tokens[brace].match; token++) {
-        bool call = in_list(file, token, gloss) && is_mark(file, token + 1, "(") && file->list.tokens[token + 1].match > 0;
+        bool call = in_list(file, token, gloss) && is_mark(file, token + 1, "(") &&
+                    file->list.tokens[token + 1].match > 0;
         if (is_word(file, token, "reflection") && file->list.tokens[token].parent == brace) {
             finish->reflection = token;
             finish->reflection_file = file;
@@ -158,7 +162,8 @@ static enum result add_source(struct buffer *text, const struct scene_file *file
         if (token > first && tokens[token].begin > tokens[token - 1].end)
             result = buffer_add_text(text, space, err);
         if (!result)
-            result = buffer_add(text, file->source.data + tokens[token].begin, tokens[token].end - tokens[token].begin, err);
+            result = buffer_add(text, file->source.data + tokens[token].begin, tokens[token].end - tokens[token].begin,
+                                err);
     }
     return result;
 }
@@ -183,7 +188,8 @@ static enum result add_exponent(struct buffer *text, const struct finish *finish
     bool parentheses = is_mark(file, keyword + 1, "("), roughness = is_word(file, keyword, "roughness"),
          gloss_roughness = is_word(file, keyword, "Gloss_Roughness");
     bool call = gloss_roughness || is_word(file, keyword, "Gloss");
-    int first = keyword + 1 + call, end = call && parentheses ? file->list.tokens[keyword + 1].match : value_end(file, first);
+    int first = keyword + 1 + call;
+    int end = call && parentheses ? file->list.tokens[keyword + 1].match : value_end(file, first);
     if (file->list.tokens[first].kind == TOKEN_NUMBER && end == first + 1) {
         double value = number_value(file, first);
         double exponent = roughness ? 1 / (4 * value) : gloss_roughness ? lobe_phong_from_roughness(value) : value;
@@ -267,7 +273,8 @@ enum result scene_list(const struct scene *scene, struct buffer *text, int *coun
             int around = words[i].around[token], declared = words[i].declared[token];
             if (is_word(&scene->files[i], token, "finish") && opens_block(&scene->files[i], token) &&
                 (i == 0 || around < 0 || used[around]))
-                result = add_row(scene, &scene->files[i], token, declared < 0 ? "-" : names[declared], &cells, count, err);
+                result = add_row(scene, &scene->files[i], token, declared < 0 ? "-" : names[declared], &cells, count,
+                                 err);
         }
     if (!result && *count > 0)
         result = align(&cells, text, err);

@@ -180,7 +180,8 @@ static bool writes_file(const struct scene_file *file, int name)
     const struct token *tokens = file->list.tokens;
     size_t length = tokens[name].end - tokens[name].begin;
     for (int i = 0; i < file->list.count - 3; i++)
-        if (is_directive(file, i, "fopen") && !is_word(file, i + 3, "read") && tokens[i + 2].end - tokens[i + 2].begin == length &&
+        if (is_directive(file, i, "fopen") && !is_word(file, i + 3, "read") &&
+            tokens[i + 2].end - tokens[i + 2].begin == length &&
             !memcmp(file->source.data + tokens[i + 2].begin, file->source.data + tokens[name].begin, length))
             return true;
     return false;
@@ -205,11 +206,13 @@ static enum result follow_include(struct scene *scene, int index, int token, con
     const struct token *name = &file->list.tokens[token];
     int end = string_end(file, token), target = -1;
     if (end == token)
-        return error_set(err, RESULT_DATA, "%s:%d: an #include must be followed by a file's name", file->path, name->line);
+        return error_set(err, RESULT_DATA, "%s:%d: an #include must be followed by a file's name", file->path,
+                         name->line);
     char *literal = NULL, *path = NULL;
     enum result result = RESULT_OK;
     if (name->kind == TOKEN_STRING && !writes_file(file, token)) {
-        result = text_printf(&literal, err, "%.*s", (int)(name->end - name->begin - 2), file->source.data + name->begin + 1);
+        result = text_printf(&literal, err, "%.*s", (int)(name->end - name->begin - 2),
+                             file->source.data + name->begin + 1);
         if (!result)
             result = find_include(literal, directories, directory_count, &path, err);
         free(literal);
@@ -367,7 +370,8 @@ static enum result add_called(const struct scene *scene, struct buffer *called, 
             struct nesting nesting = {0};
             for (int token = 0; !result && token < file->list.count; token++) {
                 nest(&nesting, file, token);
-                if (is_mark(file, token + 1, "(") && find_name(&scene->names, file, token) >= 0 && token != nesting.macro &&
+                if (is_mark(file, token + 1, "(") && find_name(&scene->names, file, token) >= 0 &&
+                    token != nesting.macro &&
                     (!nesting.macro || find_name(called, file, nesting.macro) >= 0))
                     result = add_name(called, file, token, err);
             }
@@ -434,7 +438,7 @@ static const struct scene_found *find_found(const struct scene *scene, const cha
     return NULL;
 }
 
-/* An entry of the log: `include F T NAME`, `write F T NAME` or `gamma F T VALUE`, F being a file and T a token of it. */
+/* An entry of the log: `include F T NAME`, `write F T NAME` or `gamma F T VALUE`; F is a file and T a token of it. */
 struct log_entry {
     char kind; /* its first letter */
     int file, line;
@@ -463,8 +467,10 @@ static enum result add_found(struct scene *scene, const struct log_entry *entry,
     if (result)
         return result;
     if (!path)
-        return error_set(err, RESULT_DATA, "%s:%d: %s, which this #include names, isn't found: write the whole name of a "
-                         "file in the scene's folder or in one of +L", scene->files[entry->file].path, entry->line, name);
+        return error_set(err, RESULT_DATA,
+                         "%s:%d: %s, which this #include names, isn't found: write the whole name of a file in the "
+                         "scene's folder or in one of +L",
+                         scene->files[entry->file].path, entry->line, name);
     if (!written)
         return find_or_load(scene, path, directories, directory_count, &found->file, err);
     result = load_file(scene, path, directories, directory_count, err);
@@ -476,8 +482,8 @@ static enum result add_found(struct scene *scene, const struct log_entry *entry,
     /* What was in it before is gone. */
     if (changes && memchr(file->source.data, '{', file->source.size))
         return error_set(err, RESULT_DATA,
-                         "%s:%d: %s is written by the scene itself more than once, and may hold something else each time "
-                         "that it is included: write several files",
+                         "%s:%d: %s is written by the scene itself more than once, and may hold something else each "
+                         "time that it is included: write several files",
                          scene->files[entry->file].path, entry->line, name);
     if (changes)
         scene->found[scene->found_count - 1].file = -1;
@@ -529,7 +535,8 @@ static enum result take_entries(struct scene *scene, const struct input_file *lo
             settled = true;
             scene->working_gamma = strcmp(entry.value, "srgb") ? strtod(entry.value, NULL) : GBUFFER_GAMMA_SRGB;
         } else if (entry.kind == 'i' && !find_found(scene, entry.value)) {
-            bool changes = count_entries(scene, log, 'i', entry.value) > 1 && count_entries(scene, log, 'w', entry.value) > 1;
+            bool changes = count_entries(scene, log, 'i', entry.value) > 1 &&
+                           count_entries(scene, log, 'w', entry.value) > 1;
             result = add_found(scene, &entry, changes, folder, directories, directory_count, err);
         }
     }
@@ -597,7 +604,8 @@ struct writer {
     struct buffer out;
 };
 
-/* A #local of the scene outside macros is one of the top level, and global; in a copy, which is included, it would not be. */
+/* A #local of the scene outside macros is one of the top level, and global; in a copy, which is included, it would not
+ * be. */
 static bool is_global_local(const struct writer *writer)
 {
     return writer->file == writer->scene->files && is_directive(writer->file, writer->local, "local") &&
@@ -999,8 +1007,8 @@ static void track_directive(struct writer *writer, int token)
         writer->in_macro |= writer->is_macro[i];
 }
 
-/* `#include EXPRESSION` becomes `#declare povgloss_name = EXPRESSION; ... #include povgloss_name`, and in between the names of
- * the files that were found become those of their copies. */
+/* `#include EXPRESSION` becomes `#declare povgloss_name = EXPRESSION; ... #include povgloss_name`, and in between the
+ * names of the files that were found become those of their copies. */
 static enum result write_unknown_include(struct writer *writer, const struct scene_include *include, struct error *err)
 {
     const struct scene *scene = writer->scene;

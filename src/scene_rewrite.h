@@ -38,7 +38,7 @@ struct scene {
     int file_count;
     struct scene_found *found;
     int found_count;
-    bool needs_discovery;  /* what it includes or its assumed_gamma is known when POV-Ray has parsed it: scene_discover */
+    bool needs_discovery;  /* its includes or its assumed_gamma are known to POV-Ray only: scene_discover */
     struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
     struct buffer lights;  /* in the same form: names that were declared as a light_source, */
     struct buffer arrays;  /* as an array filled in its declaration, */
@@ -68,8 +68,8 @@ enum scene_copy {
 };
 
 /* Reads the scene and every file it includes by a literal name; `choice` is kept. An include file is looked for in
- * `directories`, in their order. The caller frees the scene, also after a failure. RESULT_DATA, with file and line, for what
- * can't be taken, and for a chosen name that nothing glossy could have. */
+ * `directories`, in their order. The caller frees the scene, also after a failure. RESULT_DATA, with file and line,
+ * for what can't be taken, and for a chosen name that nothing glossy could have. */
 MUST_CHECK enum result scene_load(struct scene *scene, const char *path, const struct gloss_choice *choice,
                                   const char *const *directories, int directory_count, struct error *err);
 void scene_free(struct scene *scene);
@@ -78,12 +78,14 @@ void scene_free(struct scene *scene);
 #define SCENE_DISCOVERY_LOG "povgloss.log"
 
 /* The statement that appends the string expression `values` as a line of that file. */
-#define SCENE_DISCOVERY_WRITE(values)                                                                                       \
-    "#fopen povgloss_log \"" SCENE_DISCOVERY_LOG "\" append #write (povgloss_log, " values ", \"\\n\") #fclose povgloss_log "
+#define SCENE_DISCOVERY_WRITE(values)                                                      \
+    "#fopen povgloss_log \"" SCENE_DISCOVERY_LOG "\" append "                              \
+    "#write (povgloss_log, " values ", \"\\n\") #fclose povgloss_log "
 
-/* Takes the log of a discovery copy that POV-Ray has parsed in `folder`: reads the files that were included by names which
- * scene_load couldn't follow, and settles working_gamma. *again is true where the new files need another run. RESULT_DATA,
- * with file and line, for a file that the scene writes itself more than once, with other objects or textures in it. */
+/* Takes the log of a discovery copy that POV-Ray has parsed in `folder`: reads the files that were included by names
+ * which scene_load couldn't follow, and settles working_gamma. *again is true where the new files need another run.
+ * RESULT_DATA, with file and line, for a file that the scene writes itself more than once, with other objects or
+ * textures in it. */
 MUST_CHECK enum result scene_discover(struct scene *scene, const char *folder, const char *const *directories,
                                       int directory_count, bool *again, struct error *err);
 

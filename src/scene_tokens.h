@@ -1,5 +1,5 @@
-/* Questions about the tokens of a scene's file, for those who read and rewrite it. Token numbers beyond either end are no word,
- * mark or directive. */
+/* Questions about the tokens of a scene's file, for those who read and rewrite it. Token numbers beyond either end are
+ * no word, mark or directive. */
 #ifndef POVGLOSS_SCENE_TOKENS_H
 #define POVGLOSS_SCENE_TOKENS_H
 

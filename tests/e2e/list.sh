@@ -23,7 +23,7 @@ cat > scene.pov << 'POV'
     fresnel /* yes */ } metallic }
 #declare Shiny = finish { ambient 0 reflection 0.3 roughness 0.002 phong_size 60 }
 #declare Later = finish { Shiny roughness 0.005 }
-#declare Own = texture { pigment { rgb 1 } finish { reflection rgb <0.1, 0.2, 0.3> phong_size 10 Gloss(300) } }
+#declare Own = texture { pigment { rgb 1 } finish { reflection rgb <0.1, 0.2, 0.3> Gloss(300) phong_size 10 } }
 #declare Matte = finish { reflection 0 phong_size 50 }
 #declare Dull = finish { phong_size 50 }
 sphere { 0, 1 finish { reflection 0.2*R Gloss_Roughness( 0.3 ) } }
