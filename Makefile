@@ -25,7 +25,7 @@ CFLAGS += -fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-point
 LDFLAGS += -fsanitize=$(SANITIZE)
 endif
 
-PACKAGES := gcc binutils make libc6-dev pkg-config povray povray-includes libopenexr-dev libpng-dev \
+PACKAGES := gcc binutils make libc6-dev pkg-config povray povray-includes povray-examples libopenexr-dev libpng-dev \
             libcmocka-dev openimageio-tools perl coreutils findutils
 
 PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(wildcard src/main_*.c))

@@ -9,7 +9,10 @@ trap 'rm -f "$log"' EXIT
 
 scripts=()
 for script in tests/e2e/*.sh; do
-    [ "$script" = tests/e2e/lib.sh ] || scripts+=("$script")
+    case $script in
+        tests/e2e/lib*.sh) ;;
+        *) scripts+=("$script") ;;
+    esac
 done
 export CMOCKA_MESSAGE_OUTPUT=TAP BIN TOOLS
 prove --exec '' --merge --timer --verbose "$@" "${scripts[@]}" >"$log"

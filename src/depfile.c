@@ -36,10 +36,16 @@ static enum result add_name(struct buffer *rule, const char *name, struct error 
     return result;
 }
 
-static enum result make_rules(const char *target, const struct buffer *files, struct buffer *rules, struct error *err)
+static enum result make_rules(const struct text_list *targets, const struct buffer *files, struct buffer *rules,
+                              struct error *err)
 {
     const char *end = files->data + files->size;
-    enum result result = add_name(rules, target, err);
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < targets->count; i++) {
+        result = i > 0 ? buffer_add_text(rules, " \\\n ", err) : RESULT_OK;
+        if (!result)
+            result = add_name(rules, targets->texts[i], err);
+    }
     if (!result)
         result = buffer_add_text(rules, ":", err);
     for (const char *file = files->data; !result && file < end; file += strlen(file) + 1) {
@@ -59,11 +65,12 @@ static enum result make_rules(const char *target, const struct buffer *files, st
     return result;
 }
 
-enum result depfile_write(const char *path, const char *target, const struct buffer *files, struct error *err)
+enum result depfile_write(const char *path, const struct text_list *targets, const struct buffer *files,
+                          struct error *err)
 {
     struct buffer rules = {0};
     struct output_file file;
-    enum result result = make_rules(target, files, &rules, err);
+    enum result result = make_rules(targets, files, &rules, err);
     if (!result)
         result = output_file_open(&file, path, err);
     if (!result) {

@@ -12,6 +12,7 @@
 #include "scene_list.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,7 +25,8 @@ static const char help[] =
     "Glossy reflections for POV-Ray scenes that say Gloss(300) in a finish (povgloss.inc).\n"
     "render draws the glossy image; passes writes what glossfilter needs to draw it, again and again;\n"
     "list shows the finishes that reflect, and the exponent that each has or that --gloss auto gives it.\n"
-    "POV-Ray's switches (+W640 +H480 +A0.3 +Ldir Declare=x=1 file.ini) go to POV-Ray as they are.\n"
+    "POV-Ray's switches (+W640 +H480 +A0.3 +Ldir Declare=x=1 file.ini[section]) go to POV-Ray as they are.\n"
+    "An animation (+KFF30) is drawn frame by frame, into files numbered as POV-Ray numbers them.\n"
     "\n"
     "Scene:\n"
     "  --gloss NAME=P       make a declared texture, finish or material glossy, P being its Phong exponent\n"
@@ -32,6 +34,9 @@ static const char help[] =
     "  --gloss auto         every finish with a reflection and phong_size (P is the same) or roughness\n"
     "                       (P is 1/(4 roughness), the lobe of POV-Ray's highlight)\n"
     "  --gloss all=P        every finish that reflects, but for those above\n"
+    "  --from-scene         take POV-Ray's switches from the first comment like // +W640 +H480 +A0.3\n"
+    "                       in the scene's first 50 lines; those on the command line come after it\n"
+    "  --resume             skip every image whose file is there already\n"
     "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
     "                       interpolate; needs +W and +H\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
@@ -50,7 +55,11 @@ struct command {
     bool passes_only, list;
     const char *scene, *output;
     const char *depfile; /* NULL: none */
+    struct buffer reads; /* for its rule: what the outputs were made from, */
+    struct text_list outputs; /* and their names */
+    char *path; /* of the scene */
     struct passes_options passes;
+    bool from_scene, resume;
     struct cli_filter filter;
     bool filter_options_used;
     bool help, version;
@@ -62,6 +71,25 @@ static enum result take_scene(struct command *command, const char *scene, struct
         return error_set(err, RESULT_USAGE, "two scenes, %s and %s: give one", command->scene, scene);
     command->scene = scene;
     return RESULT_OK;
+}
+
+/* Options without a value. */
+static bool take_flag(const char *argument, struct command *command)
+{
+    const struct {
+        const char *name;
+        bool *flag;
+    } flags[] = {
+        {"-h", &command->help},
+        {"--help", &command->help},
+        {"--version", &command->version},
+        {"--from-scene", &command->from_scene},
+        {"--resume", &command->resume},
+    };
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
+        if (!strcmp(argument, flags[i].name))
+            return *flags[i].flag = true;
+    return false;
 }
 
 /* Options of povgloss alone; *taken is false if argv[*index] is none of them. */
@@ -109,10 +137,7 @@ static enum result take_argument(int argc, char **argv, int *index, struct comma
 {
     const char *argument = argv[*index];
     bool taken = false;
-    bool version = !strcmp(argument, "--version");
-    if (version || !strcmp(argument, "--help") || !strcmp(argument, "-h")) {
-        command->help |= !version;
-        command->version |= version;
+    if (take_flag(argument, command)) {
         ++*index;
         return RESULT_OK;
     }
@@ -121,7 +146,7 @@ static enum result take_argument(int argc, char **argv, int *index, struct comma
         return result;
     result = cli_filter_option(argc, argv, index, &command->filter, &taken, err);
     if (result || taken) {
-        command->filter_options_used |= strcmp(argument, "--quiet") != 0;
+        command->filter_options_used |= strcmp(argument, "--quiet") && strcmp(argument, "-q");
         return result;
     }
     ++*index;
@@ -132,16 +157,34 @@ static enum result take_argument(int argc, char **argv, int *index, struct comma
     return take_scene(command, argument, err);
 }
 
-static enum result check_command(struct command *command, const struct povray_switches *switches, struct error *err)
+static bool is_stream(const char *path)
+{
+    struct stat there;
+    return !strcmp(path, "-") || (!stat(path, &there) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode));
+}
+
+/* The scene that the command line names, or else an .ini file. */
+static enum result find_scene(struct command *command, const struct povray_switches *switches, struct error *err)
 {
     if (switches->scene) {
         enum result result = take_scene(command, switches->scene, err);
         if (result)
             return result;
     }
-    if (!command->scene)
+    const char *scene = command->scene ? command->scene : switches->file_scene;
+    if (!scene)
         return error_set(err, RESULT_USAGE, "no scene: name a .pov file");
-    if (command->list && (command->output || command->filter_options_used))
+    if (command->from_scene && is_stream(scene))
+        return error_set(err, RESULT_USAGE, "--from-scene reads the scene twice: name its file in place of %s", scene);
+    if (is_stream(scene))
+        return text_printf(&command->path, err, "%s", scene);
+    return povray_switches_find_scene(switches, scene, &command->path, err);
+}
+
+static enum result check_command(struct command *command, const struct povray_switches *switches, struct error *err)
+{
+    if (command->list && (command->output || command->filter_options_used || command->depfile || command->passes.keep ||
+                          command->resume))
         return error_set(err, RESULT_USAGE,
                          "povgloss list takes a scene and POV-Ray's switches, and writes to standard output");
     if (command->list)
@@ -150,12 +193,18 @@ static enum result check_command(struct command *command, const struct povray_sw
         return error_set(err, RESULT_USAGE, "no output: add -o FILE (or -o - for standard output)");
     if (command->depfile && !strcmp(command->output, "-"))
         return error_set(err, RESULT_USAGE, "--depfile needs the output's name for its rule: -o - has none");
+    if (command->depfile && command->resume)
+        return error_set(err, RESULT_USAGE,
+                         "--depfile tells what every image was made from, and --resume skips some: leave one of them out");
     if (command->passes_only && command->filter_options_used)
         return error_set(err, RESULT_USAGE, "povgloss passes doesn't filter: give the filter's options to glossfilter");
-    int step = command->passes.subsample;
+    int step = command->passes.subsample, count = frames_count(&command->passes.frames);
+    if (count > 1 && is_stream(command->output))
+        return error_set(err, RESULT_USAGE,
+                         "%s takes one image, and the animation has %d: name a file, or one frame (+SF1 +EF1)",
+                         output_file_name(command->output), count);
     if (step > 1 && (switches->width == 0 || switches->height == 0 || switches->width % step || switches->height % step))
-        return error_set(err, RESULT_USAGE, "--subsample %d needs +W and +H on the command line, both multiples of %d", step,
-                         step);
+        return error_set(err, RESULT_USAGE, "--subsample %d needs +W and +H, both multiples of %d", step, step);
     if (command->passes_only) {
         enum image_format format;
         struct error ignored;
@@ -166,34 +215,70 @@ static enum result check_command(struct command *command, const struct povray_sw
     return RESULT_OK;
 }
 
+static enum result take_arguments(int argc, char **argv, struct command *command, struct povray_switches *switches,
+                                  struct error *err)
+{
+    bool has_command = !strcmp(argv[1], "render") || !strcmp(argv[1], "passes") || !strcmp(argv[1], "list");
+    *command = (struct command){.passes = {.povray = "povray", .subsample = 1}, .filter = cli_filter_default()};
+    if (!has_command && argv[1][0] != '-')
+        return error_set(err, RESULT_USAGE, "unknown command %s: render, passes or list, see povgloss --help", argv[1]);
+    command->passes_only = has_command && argv[1][0] == 'p';
+    command->list = has_command && argv[1][0] == 'l';
+    enum result result = RESULT_OK;
+    for (int index = 1 + has_command; !result && index < argc;)
+        result = take_argument(argc, argv, &index, command, switches, err);
+    if (!result && !has_command && !command->help && !command->version)
+        result = error_set(err, RESULT_USAGE, "no command: write render, passes or list first, see povgloss --help");
+    return result;
+}
+
+/* The switches of the scene's comment come before those of the command line: the last one counts. */
+static enum result take_comment(int argc, char **argv, struct command *command, struct povray_switches *switches,
+                                struct error *err)
+{
+    struct error line;
+    char *path = command->path, *text = NULL;
+    povray_switches_free(switches);
+    gloss_choice_free(&command->passes.gloss);
+    enum result result = povray_switches_begin(switches, err);
+    if (!result)
+        result = povray_switches_take_comment(switches, path, &text, err);
+    if (!result)
+        result = take_arguments(argc, argv, command, switches, err);
+    command->path = path;
+    if (!result && !command->filter.quiet) {
+        error_set(&line, RESULT_OK, "%s", text);
+        cli_complain("povgloss", &line);
+    }
+    free(text);
+    return result;
+}
+
 static enum result parse(int argc, char **argv, struct command *command, struct povray_switches *switches,
                          struct error *err)
 {
-    *command = (struct command){.passes = {.povray = "povray", .subsample = 1}, .filter = cli_filter_default()};
     if (argc < 2)
         return error_set(err, RESULT_USAGE, "no command: povgloss render SCENE -o IMAGE, or see povgloss --help");
-    int index = 1;
-    if (!strcmp(argv[1], "render") || !strcmp(argv[1], "passes") || !strcmp(argv[1], "list")) {
-        command->passes_only = argv[1][0] == 'p';
-        command->list = argv[1][0] == 'l';
-        index = 2;
-    } else if (argv[1][0] != '-') {
-        return error_set(err, RESULT_USAGE, "unknown command %s: render, passes or list, see povgloss --help", argv[1]);
-    }
-    enum result result = RESULT_OK;
-    while (!result && index < argc)
-        result = take_argument(argc, argv, &index, command, switches, err);
+    enum result result = povray_switches_begin(switches, err);
+    if (!result)
+        result = take_arguments(argc, argv, command, switches, err);
     if (result || command->help || command->version)
         return result;
-    if (argv[1][0] == '-')
-        return error_set(err, RESULT_USAGE, "no command: write render, passes or list first, see povgloss --help");
-    return check_command(command, switches, err);
+    result = find_scene(command, switches, err);
+    if (!result && command->from_scene)
+        result = take_comment(argc, argv, command, switches, err);
+    command->passes.scene = command->path;
+    command->passes.switches = switches;
+    command->passes.reads = command->depfile;
+    command->passes.frames = frames_plan(&switches->frames);
+    return result ? result : check_command(command, switches, err);
 }
 
 /* A bar that is drawn again on a terminal, and a line for every quarter elsewhere. */
 struct progress {
     bool terminal;
-    int shown; /* percent; -1: nothing yet */
+    const char *frame; /* "frame 3: ", or empty */
+    int shown;         /* percent; -1: nothing yet */
 };
 
 static void show_progress(void *context, double done)
@@ -204,14 +289,14 @@ static void show_progress(void *context, double done)
         return;
     progress->shown = percent;
     if (!progress->terminal) {
-        fprintf(stderr, "povgloss: rendering passes, %d %%\n", percent / 25 * 25);
+        fprintf(stderr, "povgloss: %srendering passes, %d %%\n", progress->frame, percent / 25 * 25);
         return;
     }
     char bar[41];
     for (int i = 0; i < 40; i++)
         bar[i] = i < percent * 40 / 100 ? '#' : '.';
     bar[40] = 0;
-    fprintf(stderr, "\rpovgloss: passes [%s] %3d %%%s", bar, percent, percent == 100 ? "\n" : "");
+    fprintf(stderr, "\rpovgloss: %spasses [%s] %3d %%%s", progress->frame, bar, percent, percent == 100 ? "\n" : "");
     fflush(stderr);
 }
 
@@ -226,8 +311,7 @@ static void no_progress(void *context, double done)
 static enum result check_place(const char *path, struct error *err)
 {
     struct output_file file;
-    struct stat there;
-    if (!strcmp(path, "-") || (!stat(path, &there) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode)))
+    if (is_stream(path))
         return RESULT_OK;
     enum result result = output_file_open(&file, path, err);
     if (!result)
@@ -235,16 +319,12 @@ static enum result check_place(const char *path, struct error *err)
     return result;
 }
 
-static enum result list(struct command *command, const struct povray_switches *switches, struct error *err)
+static enum result list(const struct command *command, struct error *err)
 {
-    struct passes_options *passes = &command->passes;
     struct scene scene = {0};
     struct buffer text = {0};
     int count = 0;
-    passes->scene = command->scene;
-    passes->libraries = switches->libraries;
-    passes->library_count = switches->library_count;
-    enum result result = passes_load_scene(passes, &scene, err);
+    enum result result = passes_load_scene(&command->passes, &scene, err);
     if (!result)
         result = scene_list(&scene, &text, &count, err);
     if (!result && count > 0 && (fputs(text.data, stdout) < 0 || fflush(stdout)))
@@ -252,63 +332,96 @@ static enum result list(struct command *command, const struct povray_switches *s
     if (!result && scene.needs_discovery)
         fprintf(stderr,
                 "povgloss: warning: %s: files that are included by names that POV-Ray computes aren't looked into\n",
-                command->scene);
+                command->path);
     if (!result && count == 0)
-        fprintf(stderr, "povgloss: %s: no finish reflects\n", command->scene);
+        fprintf(stderr, "povgloss: %s: no finish reflects\n", command->path);
     buffer_free(&text);
     scene_free(&scene);
     return result;
 }
 
-static enum result run(struct command *command, const struct povray_switches *switches, struct error *err)
+static void warn(const struct command *command, const char *frame, const struct error *note)
 {
-    struct progress progress = {.terminal = isatty(STDERR_FILENO), .shown = -1};
+    struct error warning;
+    if (!note->text[0] || command->filter.quiet)
+        return;
+    error_set(&warning, RESULT_OK, "%s%s", frame, note->text);
+    cli_complain("povgloss: warning", &warning);
+}
+
+/* One image to `path`; `frame` names it in messages. */
+static enum result draw_frame(struct command *command, struct passes **passes, int number, const char *frame,
+                              const char *path, struct error *err)
+{
+    const struct frames *frames = &command->passes.frames;
+    bool last = number + frames->step > frames->last;
+    struct progress progress = {.terminal = isatty(STDERR_FILENO), .frame = frame, .shown = -1};
     struct gbuffer gbuffer = {0};
-    struct buffer reads = {0};
     struct error note;
 
     /* 1. refuse what can't be written, before the work */
-    enum result result = cli_check_output(command->output, &command->filter, err);
+    enum result result = check_place(path, err);
+
+    /* 2. the passes, from POV-Ray; the first frame reads the scene for all */
+    command->passes.progress = command->filter.quiet ? no_progress : show_progress;
+    command->passes.progress_context = &progress;
+    if (!result && !*passes) {
+        result = passes_open(&command->passes, passes, &note, err);
+        if (!result)
+            warn(command, "", &note);
+    }
     if (!result)
-        result = check_place(command->output, err);
+        result = passes_render(*passes, number, &gbuffer, &note, err);
+    if (result && progress.terminal && !command->filter.quiet && progress.shown >= 0 && progress.shown < 100)
+        fputc('\n', stderr);
+    if (!result)
+        warn(command, frame, &note);
+    if (!result && last && command->depfile)
+        result = passes_reads(*passes, &command->reads, err);
+    /* A pipe whose reader went away ends the program as it writes: no folder is there then. */
+    if (last) {
+        passes_close(*passes);
+        *passes = NULL;
+    }
+
+    /* 3. the passes file, or the picture by the filter */
+    if (!result && command->passes_only)
+        result = passes_file_write(path, &gbuffer, err);
+    else if (!result)
+        result = cli_draw(path, &command->filter, &gbuffer, err);
+    gbuffer_free(&gbuffer);
+    return result;
+}
+
+static enum result run(struct command *command, struct error *err)
+{
+    const struct frames *frames = &command->passes.frames;
+    struct passes *passes = NULL;
+    enum result result = cli_check_output(command->output, &command->filter, err);
     if (!result && command->depfile)
         result = depfile_check_name(command->output, err);
     if (!result && command->depfile)
         result = check_place(command->depfile, err);
-    if (result)
-        return result;
-
-    /* 2. the passes, from POV-Ray */
-    struct passes_options *passes = &command->passes;
-    passes->scene = command->scene;
-    passes->switches = switches->passed;
-    passes->switch_count = switches->passed_count;
-    passes->libraries = switches->libraries;
-    passes->library_count = switches->library_count;
-    passes->antialias = switches->antialias;
-    passes->width = switches->width;
-    passes->height = switches->height;
-    passes->reads = command->depfile ? &reads : NULL;
-    passes->progress = command->filter.quiet ? no_progress : show_progress;
-    passes->progress_context = &progress;
-    result = passes_render(passes, &gbuffer, &note, err);
-    if (result && progress.terminal && !command->filter.quiet && progress.shown >= 0 && progress.shown < 100)
-        fputc('\n', stderr);
-    if (!result && note.text[0] && !command->filter.quiet)
-        cli_complain("povgloss: warning", &note);
-
-    /* 3. the passes file, or the picture by the filter */
-    if (!result && command->passes_only)
-        result = passes_file_write(command->output, &gbuffer, err);
-    else if (!result)
-        result = cli_draw(command->output, &command->filter, &gbuffer, err);
-
-    /* 4. what they were made from */
-    if (!result && command->depfile)
-        result = depfile_write(command->depfile, command->output, &reads, err);
-    buffer_free(&reads);
-    gbuffer_free(&gbuffer);
-    return result;
+    for (int number = frames->first; !result && number <= frames->last; number += frames->step) {
+        char frame[32] = "", *path = NULL;
+        struct stat there;
+        if (frames->digits > 0)
+            snprintf(frame, sizeof frame, "frame %d: ", number);
+        result = is_stream(command->output) ? text_printf(&path, err, "%s", command->output)
+                                            : frames_path(frames, command->output, number, &path, err);
+        if (!result && !(command->resume && !stat(path, &there) && S_ISREG(there.st_mode))) {
+            result = draw_frame(command, &passes, number, frame, path, err);
+            struct error cause = *err;
+            if (result)
+                error_set(err, result, "%s%s", frame, cause.text);
+        }
+        if (!result && command->depfile)
+            result = text_list_add(&command->outputs, err, "%s", path);
+        free(path);
+    }
+    passes_close(passes);
+    return result || !command->depfile ? result
+                                       : depfile_write(command->depfile, &command->outputs, &command->reads, err);
 }
 
 int main(int argc, char **argv)
@@ -317,19 +430,20 @@ int main(int argc, char **argv)
     struct povray_switches switches = {0};
     struct error err;
     interrupt_install();
-    enum result result = povray_switches_make(&switches, argc, &err);
-    if (!result)
-        result = parse(argc, argv, &command, &switches, &err);
+    enum result result = parse(argc, argv, &command, &switches, &err);
     if (!result && command.help)
         printf("%s%s%s", help, cli_filter_help, help_end);
     else if (!result && command.version)
         printf("povgloss %s\n", POVGLOSS_VERSION);
     else if (!result && command.list)
-        result = list(&command, &switches, &err);
+        result = list(&command, &err);
     else if (!result)
-        result = run(&command, &switches, &err);
+        result = run(&command, &err);
     if (!result && (command.help || command.version) && (fflush(stdout) || ferror(stdout)))
         result = error_set(&err, RESULT_DATA, "standard output: cannot be written");
+    free(command.path);
+    buffer_free(&command.reads);
+    text_list_free(&command.outputs);
     povray_switches_free(&switches);
     gloss_choice_free(&command.passes.gloss);
     if (result == RESULT_INTERRUPTED)

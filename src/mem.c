@@ -61,6 +61,32 @@ enum result text_printf(char **text, struct error *err, const char *format, ...)
     return error_memory(err, (double)strlen(format));
 }
 
+enum result text_list_add(struct text_list *list, struct error *err, const char *format, ...)
+{
+    char **texts = realloc(list->texts, ((size_t)list->count + 2) * sizeof *texts);
+    if (!texts)
+        return error_memory(err, ((double)list->count + 2) * sizeof *texts);
+    list->texts = texts;
+    va_list args;
+    va_start(args, format);
+    int length = vasprintf(&texts[list->count], format, args);
+    va_end(args);
+    if (length < 0) {
+        texts[list->count] = NULL;
+        return error_memory(err, (double)strlen(format));
+    }
+    texts[++list->count] = NULL;
+    return RESULT_OK;
+}
+
+void text_list_free(struct text_list *list)
+{
+    for (int i = 0; i < list->count; i++)
+        free(list->texts[i]);
+    free(list->texts);
+    *list = (struct text_list){0};
+}
+
 enum result file_write(const char *path, const struct buffer *buffer, struct error *err)
 {
     FILE *file = fopen(path, "wb");

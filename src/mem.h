@@ -1,4 +1,5 @@
-/* A growing array of bytes, the only container of the library: text that is built up, lists of anything. */
+/* The containers of the library: a growing array of bytes, for text that is built up and lists of anything, and a list
+ * of texts. */
 #ifndef POVGLOSS_MEM_H
 #define POVGLOSS_MEM_H
 
@@ -21,6 +22,17 @@ void buffer_free(struct buffer *buffer);
 /* A new string by a printf format in *text, which the caller frees. */
 __attribute__((format(printf, 3, 4))) MUST_CHECK enum result text_printf(char **text, struct error *err,
                                                                          const char *format, ...);
+
+/* Texts in their order, followed by NULL once any was added: the argv of a process, too. */
+struct text_list {
+    char **texts;
+    int count;
+};
+
+/* Appends a new text by a printf format. */
+__attribute__((format(printf, 3, 4))) MUST_CHECK enum result text_list_add(struct text_list *list, struct error *err,
+                                                                           const char *format, ...);
+void text_list_free(struct text_list *list);
 
 /* Writes a whole new file or replaces its content; for files in a folder of our own. */
 MUST_CHECK enum result file_write(const char *path, const struct buffer *buffer, struct error *err);

@@ -5,7 +5,6 @@
 #include "eye.h"
 #include "gamma.h"
 #include "interpolate.h"
-#include "pass_scene.h"
 #include "png_io.h"
 #include "position_code.h"
 
@@ -13,10 +12,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum result pass_image_path(const struct pass_images *images, enum pass_id id, char **path, struct error *err)
+{
+    return text_printf(path, err, "%s/%s/image%s.%s", images->folder, pass_table[id].name, images->number,
+                       pass_table[id].codes ? "png" : "exr");
+}
+
 static enum result read_codes(const struct pass_images *images, enum pass_id id, struct image *image, struct error *err)
 {
     char *path;
-    enum result result = text_printf(&path, err, "%s/%s/image.png", images->folder, pass_table[id].name);
+    enum result result = pass_image_path(images, id, &path, err);
     if (result)
         return result;
     result = png_read(path, image, err);
@@ -29,7 +34,7 @@ static enum result read_radiance(const struct pass_images *images, enum pass_id 
 {
     struct exr_contents contents = {0};
     char *path;
-    enum result result = text_printf(&path, err, "%s/%s/image.exr", images->folder, pass_table[id].name);
+    enum result result = pass_image_path(images, id, &path, err);
     if (result)
         return result;
     result = exr_read(path, &contents, err);
@@ -184,6 +189,38 @@ static void note_invisible(const struct gbuffer *gbuffer, const char *scene, str
               "%s: the camera sees no glossy surface: does the finish with Gloss() reflect, and is it used?", scene);
 }
 
+static bool glossy_around(const struct image *phong, int x, int y)
+{
+    enum { REACH = 2 };
+    for (int v = y - REACH; v <= y + REACH; v++)
+        for (int u = x - REACH; u <= x + REACH; u++)
+            if (v >= 0 && v < phong->height && u >= 0 && u < phong->width && image_row(phong, 0, v)[u] > 0)
+                return true;
+    return false;
+}
+
+/* The reflectance pass sees through everything that the eye sees through. Where it finds a glossy reflection and the other
+ * passes no glossy surface, not even at a silhouette, that reflection is missing in the picture. */
+static void note_lost(const struct gbuffer *gbuffer, const char *scene, struct error *note)
+{
+    const double least = 0.02, share = 0.001;
+    const struct image *reflectance = &gbuffer->reflectance;
+    long lost = 0;
+    for (int y = 0; y < reflectance->height; y++)
+        for (int x = 0; x < reflectance->width; x++) {
+            double largest = 0;
+            for (int channel = 0; channel < 3; channel++)
+                largest = fmax(largest, (double)image_row(reflectance, channel, y)[x]);
+            lost += largest > least && !glossy_around(&gbuffer->phong, x, y);
+        }
+    double part = (double)lost / ((double)reflectance->width * reflectance->height);
+    if (part > share)
+        error_set(note, RESULT_OK,
+                  "%s: at %.2g %% of the pixels a glossy reflection is left out: the surface is seen through something that "
+                  "only POV-Ray can look through, such as a total reflection",
+                  scene, 100 * part);
+}
+
 /* Nothing is glossy: the base is all. */
 static enum result make_dull(struct gbuffer *gbuffer, struct error *err)
 {
@@ -231,6 +268,8 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         note_invisible(gbuffer, images->name, note);
         if (images->subsample > 1)
             result = interpolate_gbuffer(gbuffer, err);
+        else
+            note_lost(gbuffer, images->name, note);
     }
     image_free(&directions);
     image_free(&codes);

@@ -3,15 +3,20 @@
 #define POVGLOSS_PASS_IMAGES_H
 
 #include "gbuffer.h"
-#include "scene_rewrite.h"
+#include "pass_scene.h"
 
 /* Where the images are, and what their decoding needs. */
 struct pass_images {
-    const char *folder; /* image.exr or image.png of each pass in a folder of its name */
+    const char *folder; /* the image of each pass in a folder of its name, see pass_image_path */
+    const char *number; /* of the frame in the images' names, or empty */
     const char *name;   /* of the scene, for messages */
     const struct scene *scene;
     int subsample;
 };
+
+/* The path of a pass's image, which the caller frees: folder/pass/image03.exr, .png for codes. */
+MUST_CHECK enum result pass_image_path(const struct pass_images *images, enum pass_id id, char **path,
+                                       struct error *err);
 
 /* Reads and decodes all of them into *gbuffer: a and b, the eye, exponents, reflectance in the working space; subsampled
  * passes interpolated. RESULT_DATA where an image is missing, broken or of another size than the others; then, too, the

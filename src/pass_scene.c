@@ -1,6 +1,8 @@
 /* The table of the passes, and the wrapper that puts a pass's copies, macros, textures and skies into one scene. */
 #include "pass_scene.h"
 
+#include "scene_discover.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -27,120 +29,236 @@ static const char sky_half[] = "sphere { 0, 9e6 inverse hollow pigment { rgb 0 }
 static const char sky_white[] = "sky_sphere { pigment { rgb 1 } }\n";
 #define MIRRORS "no_reflection no_shadow no_radiosity"
 #define SEEN_IN_MIRRORS "no_image"
+static const char outside[] = "povgloss_modifiers() } object { povgloss_object } union { povgloss_nothing()";
+/* From this transparency on a surface before a glossy one is looked through. A mirrored ray ends where most of it does. */
+#define CLEAR 0.01
+#define MOSTLY_CLEAR 0.5
 
 const struct pass pass_table[PASS_COUNT] = {
     [PASS_BASE] = {.name = "base",
                    .full_size = true,
-                   .finish_end = end_base,
-                   .first = {SCENE_COPY_PLAIN, SEEN_IN_MIRRORS, false},
-                   .second = {SCENE_COPY_BASE_SECOND, MIRRORS, false}},
+                   .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "", .placed = outside},
+                   .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
-                       .finish_end = end_mirror,
                        .mirror_colour = mirror_white,
-                       .first = {SCENE_COPY_PLAIN, SEEN_IN_MIRRORS, false},
-                       .second = {SCENE_COPY_MIRROR_SECOND, MIRRORS, false}},
+                       .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
+                       .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
     [PASS_REFLECTANCE] = {.name = "reflectance",
                           .full_size = true,
-                          .finish_end = end_reflectance,
-                          .first = {SCENE_COPY_REFLECTANCE, MIRRORS, false},
-                          .second = {-1, NULL, false},
+                          .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
+                          .second = {.copy = -1},
                           .trailer = sky_half},
     [PASS_POSITION] = {.name = "position",
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
-                       .first = {SCENE_COPY_CODED, "", true},
-                       .second = {-1, NULL, false}},
+                       .clear_from = CLEAR,
+                       .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
+                       .second = {.copy = -1}},
     [PASS_POSITION_LOW] = {.name = "position-low",
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
-                           .first = {SCENE_COPY_CODED, "", true},
-                           .second = {-1, NULL, false}},
+                           .clear_from = CLEAR,
+                           .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
+                           .second = {.copy = -1}},
     [PASS_ENDPOINT] = {.name = "endpoint",
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
-                       .finish_end = end_mirror,
+                       .clear_from = MOSTLY_CLEAR,
                        .mirror_colour = mirror_white,
-                       .first = {SCENE_COPY_CODED, SEEN_IN_MIRRORS, true},
-                       .second = {SCENE_COPY_MIRROR_SECOND, MIRRORS, false},
+                       .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS, .coded = true},
+                       .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .coded_sky = true},
     [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
-                           .finish_end = end_mirror,
+                           .clear_from = MOSTLY_CLEAR,
                            .mirror_colour = mirror_white,
-                           .first = {SCENE_COPY_CODED, SEEN_IN_MIRRORS, true},
-                           .second = {SCENE_COPY_MIRROR_SECOND, MIRRORS, false},
+                           .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS, .coded = true},
+                           .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
                            .coded_sky = true},
     [PASS_DIRECTION] = {.name = "direction",
                         .codes = true,
                         .technical = true,
                         .digits = POSITION_DIGITS_HIGH,
-                        .first = {SCENE_COPY_CODED, SEEN_IN_MIRRORS, false},
-                        .second = {-1, NULL, false},
+                        .clear_from = CLEAR,
+                        .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS},
+                        .second = {.copy = -1},
                         .coded_sky = true},
     [PASS_EXPONENT] = {.name = "exponent",
                        .codes = true,
                        .technical = true,
-                       .finish_end = end_mirror,
                        .mirror_colour = mirror_exponent,
-                       .first = {SCENE_COPY_MIRROR, MIRRORS, false},
-                       .second = {-1, NULL, false},
+                       .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
+                       .second = {.copy = -1},
                        .trailer = sky_white},
 };
 
-/* What a copy with marked finishes refers to. The state of a finish is a vector: x the exponent of its Gloss() or of the
- * user's choice for the name that is being declared, or -1; y whether it reflects; z the exponent of its highlight's lobe, or
- * -1. POV-Ray's specular highlight is a power 1/roughness of the cosine about the half vector, whose angle is half of that
- * from the mirror direction: an exponent of 1/(4 roughness) there. phong_size is an exponent about the mirror direction. */
-static enum result add_macros(const struct scene *scene, const struct pass *pass, struct buffer *text, struct error *err)
+/* What a copy without textures refers to. */
+static enum result add_coded_macros(const struct pass *pass, struct buffer *text, struct error *err)
+{
+    return buffer_printf(text, err,
+                         "#macro povgloss_coded(povgloss_c)\n"
+                         "  #if (povgloss_c >= %g) pigment { rgbt 1 } #else transform {} #end\n"
+                         "#end\n"
+                         "#macro povgloss_no_interior() #ifdef (povgloss_interior) #undef povgloss_interior #end #end\n"
+                         "#macro povgloss_coded_interior()\n"
+                         "  #ifdef (povgloss_interior) interior { povgloss_interior } #end\n"
+                         "#end\n",
+                         pass->clear_from);
+}
+
+/* What takes the place of povgloss_cover, a pigment that may be transparent, in a texture and in an object. */
+static enum result add_cover_macros(const struct scene_part *part, struct buffer *text, struct error *err)
+{
+    static const char keep[] = "pigment { povgloss_cover }", coded[] = "povgloss_coded(povgloss_t)";
+    static const char thin[] = "pigment { #if (povgloss_uv) uv_mapping #end\n"
+                               "    function { min(0.999, povgloss_through(x, y, z).filter + "
+                               "povgloss_through(x, y, z).transmit) }\n"
+                               "    color_map { [0 rgb 0] [%1$g rgb 0] [%1$g rgbt 1] [1 rgbt 1] } }";
+    bool mirror = part->copy == SCENE_COPY_MIRROR || part->copy == SCENE_COPY_MIRROR_SECOND;
+    char *thinned;
+    enum result result = text_printf(&thinned, err, thin, CLEAR);
+    if (!result)
+        result = buffer_printf(text, err,
+                               "#macro povgloss_see()\n"
+                               "  #ifdef (povgloss_through) #undef povgloss_through #end\n"
+                               "  #declare povgloss_through = function { pigment { povgloss_cover } };\n"
+                               "  #declare povgloss_t = min(povgloss_at(0.1, 0.2, 0.3), povgloss_at(-5.3, 3.1, -2.7));\n"
+                               "#end\n"
+                               "#macro povgloss_at(povgloss_x, povgloss_y, povgloss_z)\n"
+                               "  (povgloss_through(povgloss_x, povgloss_y, povgloss_z).filter +\n"
+                               "   povgloss_through(povgloss_x, povgloss_y, povgloss_z).transmit)\n"
+                               "#end\n"
+                               "#macro povgloss_cover_of_texture(povgloss_uv)\n"
+                               "  povgloss_see()\n"
+                               "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
+                               "    min(povgloss_lower, povgloss_t)>;\n"
+                               "  #declare povgloss_last = povgloss_texture; povgloss_count(<-1, 0, -1, povgloss_t>)\n"
+                               "  %s\n#end\n"
+                               "#macro povgloss_cover_of_object(povgloss_uv)\n"
+                               "  povgloss_see()\n"
+                               "  #declare povgloss_own = <-1, 0, -1, povgloss_t>; povgloss_count(povgloss_own)\n"
+                               "  %s\n#end\n",
+                               mirror ? thinned : keep,
+                               part->copy == SCENE_COPY_CODED ? coded : mirror ? thinned : keep);
+    free(thinned);
+    return result;
+}
+
+/* What a texture refers to. The state of a finish is a vector: x the exponent of its Gloss() or of the user's choice for the
+ * name that is being declared, or -1; y whether it reflects; z the exponent of its highlight's lobe, or -1; t how transparent
+ * the pigment with it is, and all layers below. Automatic gloss leaves transparent surfaces alone: what they reflect inside
+ * can't be blurred. POV-Ray's specular highlight is a power 1/roughness of the cosine about the half vector, whose angle is
+ * half of that from the mirror direction: an exponent of 1/(4 roughness) there. phong_size is an exponent about the mirror
+ * direction. */
+static enum result add_state_macros(const struct scene *scene, struct buffer *text, struct error *err)
 {
     const struct gloss_choice *choice = scene->choice;
     enum result result = buffer_add_text(
         text,
-        "#macro povgloss_dark() ambient 0 emission 0 diffuse 0 specular 0 phong 0 #end\n"
-        "#declare povgloss_pigment = pigment { rgb 0 };\n"
-        "#declare povgloss_none = <-1, 0, -1>;\n"
+        "#declare povgloss_none = <-1, 0, -1, 0>;\n"
         "#declare povgloss_state = povgloss_none; #declare povgloss_texture = povgloss_none;\n"
-        "#declare povgloss_last = povgloss_none; #declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
+        "#declare povgloss_last = povgloss_none; #declare povgloss_own = povgloss_none; #declare povgloss_lower = 1;\n"
+        "#declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
+        "#declare povgloss_counts = <0, 0>;\n"
+        "#macro povgloss_add(povgloss_c) #declare povgloss_counts = povgloss_counts + povgloss_c; #end\n"
+        "#macro povgloss_count(povgloss_s)\n"
+        "  povgloss_add(<(povgloss_exponent(povgloss_s) >= 0), povgloss_clear(povgloss_s.t)>)\n"
+        "#end\n"
+        "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_none; #end\n"
+        "#macro povgloss_upper_layer()\n"
+        "  #declare povgloss_lower = povgloss_last.t; #declare povgloss_texture = povgloss_none;\n"
+        "#end\n"
+        "#macro povgloss_layered()\n"
+        "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
+        "    min(povgloss_lower, povgloss_texture.t)>;\n"
+        "  #declare povgloss_last = povgloss_texture;\n"
+        "  povgloss_count(povgloss_last)\n"
+        "#end\n"
         "#macro povgloss_begin(povgloss_of)\n"
         "  #declare povgloss_state = povgloss_of; #declare povgloss_reflects = 0; #declare povgloss_phong = -1;\n"
         "#end\n"
-        "#macro povgloss_reflection(povgloss_y)\n"
-        "  #declare povgloss_reflects = 1; #declare povgloss_state = <povgloss_state.x, povgloss_y, povgloss_state.z>;\n"
+        "#macro povgloss_of_finish(povgloss_s)\n"
+        "  povgloss_set(povgloss_s.x, povgloss_s.y, povgloss_s.z)\n"
+        "#end\n"
+        "#macro povgloss_of_texture(povgloss_s) #declare povgloss_texture = povgloss_s; #end\n"
+        "#macro povgloss_of_material(povgloss_s) #declare povgloss_last = povgloss_s; povgloss_count(povgloss_s) #end\n"
+        "#macro povgloss_set(povgloss_x, povgloss_y, povgloss_z)\n"
+        "  #declare povgloss_state = <povgloss_x, povgloss_y, povgloss_z, povgloss_state.t>;\n"
+        "#end\n"
+        "#macro povgloss_reflection(povgloss_v)\n"
+        "  #declare povgloss_reflects = 1; povgloss_set(povgloss_state.x, povgloss_v, povgloss_state.z)\n"
         "#end\n"
         "#macro povgloss_phong_size()\n"
-        "  #declare povgloss_state = <povgloss_state.x, povgloss_state.y, povgloss_size>; phong_size povgloss_size\n"
+        "  povgloss_set(povgloss_state.x, povgloss_state.y, povgloss_size) phong_size povgloss_size\n"
         "#end\n"
         "#macro povgloss_roughness()\n"
-        "  #declare povgloss_state = <povgloss_state.x, povgloss_state.y, 1/(4*max(povgloss_size, 1e-9))>;\n"
-        "  roughness povgloss_size\n"
+        "  povgloss_set(povgloss_state.x, povgloss_state.y, 1/(4*max(povgloss_size, 1e-9))) roughness povgloss_size\n"
         "#end\n",
         err);
-    if (!result)
-        result = buffer_printf(text, err,
-                               "#declare povgloss_all = %.9g;\n"
-                               "#macro povgloss_exponent(povgloss_s)\n"
-                               "  (povgloss_s.x >= 0 | povgloss_s.y <= 0 ? povgloss_s.x : %s)\n"
-                               "#end\n",
-                               choice->all ? fmin(choice->all_exponent, 1e30) : -1,
-                               choice->automatic ? "(povgloss_s.z >= 0 ? povgloss_s.z : povgloss_all)" : "povgloss_all");
+    if (result)
+        return result;
+    return buffer_printf(text, err,
+                         "#macro povgloss_clear(povgloss_c) (povgloss_c >= %g) #end\n"
+                         "#declare povgloss_all = %.9g;\n"
+                         "#macro povgloss_exponent(povgloss_s)\n"
+                         "  (povgloss_s.x >= 0 | povgloss_s.y <= 0 | povgloss_clear(povgloss_s.t) ? povgloss_s.x : %s)\n"
+                         "#end\n",
+                         CLEAR, choice->all ? fmin(choice->all_exponent, 1e30) : -1,
+                         choice->automatic ? "(povgloss_s.z >= 0 ? povgloss_s.z : povgloss_all)" : "povgloss_all");
+}
+
+static bool is_base(const struct pass *pass)
+{
+    return pass == &pass_table[PASS_BASE];
+}
+
+/* What a copy with marked finishes refers to besides. */
+static enum result add_finish_macros(const struct pass *pass, const struct scene_part *part, struct buffer *text, struct error *err)
+{
+    enum result result = buffer_add_text(
+        text,
+        "#macro povgloss_dark() ambient 0 emission 0 diffuse 0 specular 0 phong 0 #end\n"
+        "#declare povgloss_pigment = pigment { rgb 0 };\n"
+        "#macro povgloss_hide(povgloss_s)\n"
+        "  #if (povgloss_exponent(povgloss_s) >= 0 & povgloss_clear(povgloss_s.t)) pigment { rgb 0 } #end\n"
+        "#end\n",
+        err);
     if (!result && pass->mirror_colour)
         result = buffer_printf(text, err, "#macro povgloss_mirror_colour() %s #end\n", pass->mirror_colour);
     if (!result)
-        result = buffer_printf(text, err, "#macro povgloss_end()\n"
+        result = buffer_printf(text, err,
+                               "#macro povgloss_finish(povgloss_named)\n"
                                "  #if (povgloss_given >= 0) #declare povgloss_phong = povgloss_given; #end\n"
-                               "  #if (povgloss_phong >= 0)\n"
-                               "    #declare povgloss_state = <povgloss_phong, povgloss_state.y, povgloss_state.z>;\n"
-                               "  #end\n"
-                               "  #declare povgloss_last = povgloss_state;\n"
-                               "  #declare povgloss_phong = povgloss_exponent(povgloss_state);\n"
-                               "  %s\n#end\n",
-                               pass->finish_end);
-    if (!result && pass->finish_end != end_base)
+                               "  #if (povgloss_phong >= 0) povgloss_set(povgloss_phong, povgloss_state.y, povgloss_state.z) "
+                               "#end\n"
+                               "  #declare povgloss_last = povgloss_state; povgloss_count(povgloss_state)\n"
+                               "  #declare povgloss_phong = (povgloss_named ? povgloss_state.x : "
+                               "povgloss_exponent(povgloss_state));\n"
+                               "  %s\n#end\n"
+                               "#macro povgloss_end() povgloss_finish(0) #end\n"
+                               "#macro povgloss_end_of_name() povgloss_finish(1) #end\n",
+                               part->finish_end);
+    if (!result && part->placed)
+        result = buffer_printf(text, err,
+                               "#declare povgloss_depth = 0;\n"
+                               "#macro povgloss_enter()\n"
+                               "  #if (povgloss_depth = 0) #declare povgloss_before = povgloss_counts; #end\n"
+                               "  #declare povgloss_depth = povgloss_depth + 1;\n"
+                               "#end\n"
+                               "#macro povgloss_leave() #declare povgloss_depth = povgloss_depth - 1; #end\n"
+                               "#macro povgloss_place()\n"
+                               "  povgloss_leave()\n"
+                               "  #if (povgloss_depth = 0 & povgloss_counts.u = povgloss_before.u &\n"
+                               "       povgloss_counts.v > povgloss_before.v) %s\n"
+                               "  #else object { povgloss_object } #end\n"
+                               "#end\n",
+                               part->placed);
+    if (!result && !is_base(pass))
         result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { povgloss_dark() } }\n", err);
     return result;
 }
@@ -156,8 +274,12 @@ static enum result add_coding_texture(const struct pass *pass, struct buffer *te
 static enum result add_part(const struct scene *scene, const struct pass *pass, const struct scene_part *part,
                             struct buffer *text, struct error *err)
 {
-    bool marked = part->copy != SCENE_COPY_PLAIN && part->copy != SCENE_COPY_CODED;
-    enum result result = marked ? add_macros(scene, pass, text, err) : RESULT_OK;
+    bool coded = part->copy == SCENE_COPY_CODED, tracked = part->copy != SCENE_COPY_PLAIN;
+    enum result result = tracked ? add_state_macros(scene, text, err) : RESULT_OK;
+    if (!result && tracked)
+        result = add_cover_macros(part, text, err);
+    if (!result && tracked)
+        result = coded ? add_coded_macros(pass, text, err) : add_finish_macros(pass, part, text, err);
     char *name = NULL;
     if (!result)
         result = scene_copy_name(scene, (enum scene_copy)part->copy, 0, &name, err);
@@ -209,7 +331,7 @@ static struct scene_part first_part(const struct scene *scene, enum pass_id id)
 {
     struct scene_part part = pass_table[id].first;
     if (id == PASS_BASE && !has_second_part(scene, id))
-        part.copy = SCENE_COPY_BASE;
+        part = (struct scene_part){.copy = SCENE_COPY_BASE, .finish_end = end_base};
     return part;
 }
 
@@ -257,7 +379,7 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     if (!result && pass->trailer)
         result = buffer_add_text(text, pass->trailer, err);
     if (!result && pass->technical)
-        result = buffer_add_text(text, "global_settings { max_trace_level 3 adc_bailout 1/255 }\n", err);
+        result = buffer_add_text(text, "global_settings { max_trace_level 20 adc_bailout 1/255 }\n", err);
     return result;
 }
 

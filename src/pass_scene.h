@@ -26,7 +26,9 @@ enum pass_id {
 struct scene_part {
     int copy; /* enum scene_copy, or -1 */
     const char *modifiers;
-    bool coded; /* the position-coding texture on the union */
+    bool coded;             /* the position-coding texture on the union */
+    const char *finish_end; /* what povgloss_end puts last into every finish of a marked copy */
+    const char *placed;     /* what povgloss_place makes of povgloss_object, where it is transparent without gloss */
 };
 
 struct pass {
@@ -35,9 +37,9 @@ struct pass {
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
     bool technical; /* colours are numbers: linear, without media or radiosity */
     enum position_digits digits;
-    const char *finish_end;    /* what povgloss_end puts last into every finish of a marked copy */
     const char *mirror_colour; /* reflectivity of its glossy finishes */
     struct scene_part first, second;
+    double clear_from;         /* a coded object of at least this transparency is looked through */
     bool coded_sky;      /* mirrored rays that miss find their direction's code */
     const char *trailer; /* statements after the copies */
 };

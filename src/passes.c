@@ -1,152 +1,127 @@
-/* The way from a scene to a gbuffer: find its files, write the passes' scenes, run POV-Ray on all of them at the same time,
- * and read the images. The passes themselves stand in pass_scene.c, their decoding in pass_images.c.
+/* The way from a scene to a gbuffer: find its files (with a run of POV-Ray where only it knows them), write the passes'
+ * scenes, run POV-Ray on all of them at the same time, and read the images. The passes themselves stand in pass_scene.c,
+ * their decoding in pass_images.c.
  */
 #include "passes.h"
 
 #include "input_file.h"
 #include "pass_images.h"
-#include "pass_scene.h"
-#include "povray_switches.h"
 #include "reads.h"
+#include "scene_discover.h"
 #include "work_folder.h"
 
 #include <assert.h>
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-/* Everything about one run. */
-struct run {
+#define EMPTY_INI "empty.ini"
+
+struct passes {
     const struct passes_options *options;
     struct scene scene;
     struct work_folder folder;
-    char **directories; /* where includes are looked for, absolute; those up to linked_count have links lib0, lib1, ... */
-    char **directory_names; /* the same as the user wrote them */
-    int directory_count, linked_count;
-    char **environment; /* of POV-Ray: the strings are those of environ, and `variables` */
-    char *variables[2];
+    int frame;                        /* for which the scene was read */
+    struct text_list directories;     /* where includes are looked for, absolute; they have links lib0, lib1, ... */
+    struct text_list directory_names; /* the same as the user wrote them */
+    char **environment;               /* of POV-Ray: the strings are those of environ, a constant and `preload` */
+    char *preload;
+    struct reads reads;
+    int discoveries;
+    bool has_folder[PASS_COUNT];
     struct povray_job jobs[PASS_COUNT];
     enum pass_id ids[PASS_COUNT];
     int job_count;
 };
 
-/* Makes the folder and writes the scene in it that POV-Ray reads. */
-static enum result write_wrapper(const struct run *run, const char *folder, const struct buffer *text,
+/* Writes the scene that POV-Ray reads in a folder. */
+static enum result write_wrapper(const struct passes *passes, const char *folder, const struct buffer *text,
                                  struct error *err)
 {
-    char *path = NULL;
-    enum result result = work_folder_add(&run->folder, folder, err);
-    if (!result)
-        result = text_printf(&path, err, "%s/%s/pass.pov", run->folder.path, folder);
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s/pass.pov", passes->folder.path, folder);
     if (!result)
         result = file_write(path, text, err);
     free(path);
     return result;
 }
 
-static enum result write_copy(const struct run *run, enum scene_copy copy, struct error *err)
+static enum result write_copy(const struct passes *passes, enum scene_copy copy, struct error *err)
 {
-    char *copies = NULL;
-    enum result result = text_printf(&copies, err, "%s/copies", run->folder.path);
+    char *copies;
+    enum result result = text_printf(&copies, err, "%s/copies", passes->folder.path);
     if (!result)
-        result = scene_write_copy(&run->scene, copy, copies, err);
+        result = scene_write_copy(&passes->scene, copy, copies, err);
     free(copies);
     return result;
 }
 
-static enum result write_scenes(struct run *run, struct error *err)
+static enum result write_empty_ini(const struct passes *passes, struct error *err)
 {
-    bool needed[SCENE_COPY_COUNT] = {false}, several = run->scene.exponent < 0;
+    const struct buffer empty = {0};
+    char *path;
+    enum result result = text_printf(&path, err, "%s/" EMPTY_INI, passes->folder.path);
+    if (!result)
+        result = file_write(path, &empty, err);
+    free(path);
+    return result;
+}
+
+static enum result write_pass(struct passes *passes, enum pass_id id, struct error *err)
+{
+    struct buffer text = {0};
     enum result result = RESULT_OK;
+    if (!passes->has_folder[id])
+        result = work_folder_add(&passes->folder, pass_table[id].name, err);
+    passes->has_folder[id] = true;
+    if (!result)
+        result = pass_scene_text(&passes->scene, id, &text, err);
+    if (!result)
+        result = write_wrapper(passes, pass_table[id].name, &text, err);
+    buffer_free(&text);
+    return result;
+}
+
+static enum result write_scenes(struct passes *passes, struct error *err)
+{
+    bool needed[SCENE_COPY_COUNT] = {false}, several = passes->scene.exponent < 0;
+    enum result result = RESULT_OK;
+    passes->job_count = 0;
     for (int id = 0; !result && id < PASS_COUNT; id++) {
-        if ((id == PASS_EXPONENT && !several) || (id != PASS_BASE && !run->scene.glossy))
+        if ((id == PASS_EXPONENT && !several) || (id != PASS_BASE && !passes->scene.glossy))
             continue;
-        run->ids[run->job_count++] = (enum pass_id)id;
-        pass_copies(&run->scene, (enum pass_id)id, needed);
-        struct buffer text = {0};
-        result = pass_scene_text(&run->scene, (enum pass_id)id, &text, err);
-        if (!result)
-            result = write_wrapper(run, pass_table[id].name, &text, err);
-        buffer_free(&text);
+        passes->ids[passes->job_count++] = (enum pass_id)id;
+        pass_copies(&passes->scene, (enum pass_id)id, needed);
+        result = write_pass(passes, (enum pass_id)id, err);
     }
     for (int copy = 0; !result && copy < SCENE_COPY_COUNT; copy++)
         if (needed[copy])
-            result = write_copy(run, (enum scene_copy)copy, err);
+            result = write_copy(passes, (enum scene_copy)copy, err);
     return result;
 }
 
 /* ---- where POV-Ray looks for files ---- */
 
-static enum result add_directory(struct run *run, const char *path, struct error *err)
+static enum result add_directory(struct passes *passes, const char *path, struct error *err)
 {
     char *absolute = realpath(path, NULL);
-    if (!absolute)
-        return RESULT_OK; /* POV-Ray too passes over a folder that isn't there */
-    size_t size = ((size_t)run->directory_count + 1) * sizeof(char *);
-    char *name = strdup(path);
-    char **directories = realloc(run->directories, size);
-    run->directories = directories ? directories : run->directories;
-    char **names = realloc(run->directory_names, size);
-    run->directory_names = names ? names : run->directory_names;
-    if (!name || !directories || !names) {
-        free(absolute);
-        free(name);
-        return error_memory(err, (double)size);
-    }
-    directories[run->directory_count] = absolute;
-    names[run->directory_count++] = name;
-    return RESULT_OK;
-}
-
-/* The Library_Path lines of one .ini file; a file that can't be read has none. */
-static enum result add_ini_directories(struct run *run, const char *ini, struct error *err)
-{
-    FILE *file = fopen(ini, "r");
-    char line[4096];
-    enum result result = RESULT_OK;
-    while (file && !result && fgets(line, sizeof line, file)) {
-        char path[4096];
-        const char *start = line + strspn(line, " \t");
-        if (!strncasecmp(start, "Library_Path", 12) &&
-            (sscanf(start + 12, " = \"%4095[^\"]", path) == 1 || sscanf(start + 12, " = %4095[^\r\n]", path) == 1))
-            result = add_directory(run, path, err);
-    }
-    if (file)
-        fclose(file);
+    /* POV-Ray too passes over a folder that isn't there. */
+    enum result result = absolute ? text_list_add(&passes->directories, err, "%s", absolute) : RESULT_OK;
+    if (!result && absolute)
+        result = text_list_add(&passes->directory_names, err, "%s", path);
+    free(absolute);
     return result;
 }
 
-/* The .ini file that POV-Ray reads before its command line: the first that exists of $POVINI, ./povray.ini,
- * ~/.povray/3.7/povray.ini and /etc/povray/3.7/povray.ini. The caller frees *path. */
-static enum result find_ini(char **path, struct error *err)
+/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; the scene's own folder comes last. They
+ * are reached through links, since POV-Ray's command line can't take every path. */
+static enum result find_directories(struct passes *passes, struct error *err)
 {
-    const char *variable = getenv("POVINI"), *home = getenv("HOME");
-    char *candidates[4] = {0};
-    enum result result = variable && *variable ? text_printf(&candidates[0], err, "%s", variable) : RESULT_OK;
-    if (!result)
-        result = text_printf(&candidates[1], err, "povray.ini");
-    if (!result)
-        result = text_printf(&candidates[2], err, "%s/.povray/3.7/povray.ini", home ? home : "");
-    if (!result)
-        result = text_printf(&candidates[3], err, "/etc/povray/3.7/povray.ini");
-    *path = NULL;
-    for (int i = 0; i < 4; i++) {
-        if (!result && !*path && candidates[i] && access(candidates[i], R_OK) == 0)
-            *path = realpath(candidates[i], NULL);
-        free(candidates[i]);
-    }
-    return result;
-}
-
-/* POV-Ray looks in its folder, in those of +L, and in those of its .ini file; the scene's own folder comes last of +L. */
-static enum result find_directories(struct run *run, const char *ini, struct error *err)
-{
-    const struct passes_options *options = run->options;
-    enum result result = add_directory(run, ".", err);
-    for (int i = 0; !result && i < options->library_count; i++)
-        result = add_directory(run, options->libraries[i], err);
+    const struct passes_options *options = passes->options;
+    enum result result = add_directory(passes, ".", err);
+    for (int i = 0; !result && i < options->switches->libraries.count; i++)
+        result = add_directory(passes, options->switches->libraries.texts[i], err);
     char *scene_folder = strdup(options->scene);
     if (!scene_folder)
         return error_memory(err, (double)strlen(options->scene));
@@ -154,156 +129,105 @@ static enum result find_directories(struct run *run, const char *ini, struct err
     if (slash)
         slash[slash == scene_folder] = 0;
     if (!result)
-        result = add_directory(run, slash ? scene_folder : ".", err);
+        result = add_directory(passes, slash ? scene_folder : ".", err);
     free(scene_folder);
-    run->linked_count = run->directory_count;
-    return result || !ini ? result : add_ini_directories(run, ini, err);
+    return result;
 }
 
-static enum result link_directories(const struct run *run, struct error *err)
+static enum result link_directories(const struct passes *passes, struct error *err)
 {
     enum result result = RESULT_OK;
-    for (int i = 0; !result && i < run->linked_count; i++) {
+    for (int i = 0; !result && i < passes->directories.count; i++) {
         char name[32];
         snprintf(name, sizeof name, "lib%d", i);
-        result = work_folder_link(&run->folder, name, run->directories[i], err);
+        result = work_folder_link(&passes->folder, name, passes->directories.texts[i], err);
     }
     return result;
 }
 
-static void free_directories(struct run *run)
+static enum result load_scene(struct passes *passes, struct error *err)
 {
-    for (int i = 0; i < run->directory_count; i++) {
-        free(run->directories[i]);
-        free(run->directory_names[i]);
-    }
-    free(run->directories);
-    free(run->directory_names);
+    return scene_load(&passes->scene, passes->options->scene, &passes->options->gloss,
+                      (const char *const *)passes->directories.texts, passes->directories.count, err);
 }
 
-static enum result load_scene(struct run *run, const char *ini, struct error *err)
+static void free_scene(struct passes *passes)
 {
-    enum result result = find_directories(run, ini, err);
-    return result ? result
-                  : scene_load(&run->scene, run->options->scene, &run->options->gloss,
-                               (const char *const *)run->directories, run->directory_count, err);
+    scene_free(&passes->scene);
+    text_list_free(&passes->directories);
+    text_list_free(&passes->directory_names);
 }
 
 enum result passes_load_scene(const struct passes_options *options, struct scene *scene, struct error *err)
 {
-    struct run run = {.options = options};
-    char *ini = NULL;
-    enum result result = find_ini(&ini, err);
+    struct passes passes = {.options = options};
+    enum result result = find_directories(&passes, err);
     if (!result)
-        result = load_scene(&run, ini, err);
-    *scene = run.scene;
-    free_directories(&run);
-    free(ini);
+        result = load_scene(&passes, err);
+    *scene = passes.scene;
+    passes.scene = (struct scene){0};
+    free_scene(&passes);
     return result;
 }
 
 /* ---- running ---- */
 
-static enum result add_argument(char ***arguments, int *count, struct error *err, const char *format, const char *value)
+/* The program, the user's switches, where files are looked for, the scene and its frame. */
+static enum result scene_arguments(const struct passes *passes, int frame, struct text_list *arguments,
+                                   struct error *err)
 {
-    char **grown = realloc(*arguments, ((size_t)*count + 2) * sizeof *grown);
-    if (!grown)
-        return error_memory(err, sizeof *grown);
-    *arguments = grown;
-    grown[*count + 1] = NULL;
-    enum result result = text_printf(&grown[*count], err, format, value);
-    *count += !result;
-    return result;
-}
-
-/* The user's .ini files are reached through links, since POV-Ray's command line can't take every path. */
-static enum result add_switch(const struct run *run, char ***arguments, int *count, int index, struct error *err)
-{
-    const char *text = run->options->switches[index];
-    size_t ini = povray_switch_ini(text);
-    if (!ini)
-        return add_argument(arguments, count, err, "%s", text);
-    char *link;
-    enum result result = text_printf(&link, err, "../ini%d.ini%s", index, text + ini);
-    if (!result)
-        result = add_argument(arguments, count, err, "%s", link);
-    free(link);
-    return result;
-}
-
-static enum result link_ini_files(const struct run *run, struct error *err)
-{
-    enum result result = RESULT_OK;
-    for (int i = 0; !result && i < run->options->switch_count; i++) {
-        const char *text = run->options->switches[i];
-        size_t ini = povray_switch_ini(text);
-        if (!ini)
-            continue;
-        char *path = strndup(text, ini), *absolute = path ? realpath(path, NULL) : NULL, name[64];
-        snprintf(name, sizeof name, "ini%d.ini", i);
-        result = absolute ? work_folder_link(&run->folder, name, absolute, err)
-                          : error_set(err, RESULT_DATA, "%s: can't be read: %s", text, strerror(errno));
-        free(path);
-        free(absolute);
-    }
-    return result;
-}
-
-/* The program, the user's switches, where files are looked for, and the scene. */
-static enum result scene_arguments(const struct run *run, char ***arguments, int *count, struct error *err)
-{
-    const struct passes_options *options = run->options;
+    const struct passes_options *options = passes->options;
+    const struct povray_switches *switches = options->switches;
     /* POV-Ray runs in a folder of its own. */
     char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
-    enum result result = add_argument(arguments, count, err, "%s", program ? program : options->povray);
+    enum result result = text_list_add(arguments, err, "%s", program ? program : options->povray);
     free(program);
-    for (int i = 0; !result && i < options->switch_count; i++)
-        result = add_switch(run, arguments, count, i, err);
+    for (int i = 0; !result && i < switches->passed.count; i++)
+        result = text_list_add(arguments, err, "%s", switches->passed.texts[i]);
     if (!result)
-        result = add_argument(arguments, count, err, "%s", "+L../copies");
-    for (int i = 0; !result && i < run->linked_count; i++) {
-        char name[32];
-        snprintf(name, sizeof name, "lib%d", i);
-        result = add_argument(arguments, count, err, "+L../%s", name);
-    }
+        result = text_list_add(arguments, err, "+L../copies");
+    for (int i = 0; !result && i < passes->directories.count; i++)
+        result = text_list_add(arguments, err, "+L../lib%d", i);
     static const char *const always[] = {"+Ipass.pov", "-D", "-P", "-C", "-UA", "+GA", "+V", NULL};
     for (int i = 0; !result && always[i]; i++)
-        result = add_argument(arguments, count, err, "%s", always[i]);
+        result = text_list_add(arguments, err, "%s", always[i]);
+    if (!result && options->frames.digits > 0)
+        result = text_list_add(arguments, err, "Subset_Start_Frame=%d", frame);
+    if (!result && options->frames.digits > 0)
+        result = text_list_add(arguments, err, "Subset_End_Frame=%d", frame);
     return result;
 }
 
 /* The user's switches first, then those on which the pass depends: POV-Ray takes the last one. */
-static enum result job_arguments(const struct run *run, enum pass_id id, char ***arguments, struct error *err)
+static enum result job_arguments(const struct passes *passes, enum pass_id id, int frame, struct text_list *arguments,
+                                 struct error *err)
 {
-    const struct passes_options *options = run->options;
+    const struct passes_options *options = passes->options;
+    const struct povray_switches *switches = options->switches;
     const struct pass *pass = &pass_table[id];
-    int count = 0;
-    enum result result = scene_arguments(run, arguments, &count, err);
     static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
+    enum result result = scene_arguments(passes, frame, arguments, err);
     const char *const *format = pass->codes ? codes : radiance;
     for (int i = 0; !result && format[i]; i++)
-        result = add_argument(arguments, &count, err, "%s", format[i]);
+        result = text_list_add(arguments, err, "%s", format[i]);
     if (!result && !pass->full_size)
-        result = add_argument(arguments, &count, err, "%s", "-A");
+        result = text_list_add(arguments, err, "-A");
     /* Reflectivities are small, and their edges show as much as those of the picture. */
-    if (!result && id == PASS_REFLECTANCE && options->antialias)
-        result = add_argument(arguments, &count, err, "%s", "+A0.01");
+    if (!result && id == PASS_REFLECTANCE && switches->antialias)
+        result = text_list_add(arguments, err, "+A0.01");
     if (!result && pass->technical)
-        result = add_argument(arguments, &count, err, "%s", "+Q8");
+        result = text_list_add(arguments, err, "+Q8");
     if (!result && options->subsample > 1 && !pass->full_size) {
-        char size[32];
-        snprintf(size, sizeof size, "%d", options->width / options->subsample);
-        result = add_argument(arguments, &count, err, "+W%s", size);
-        snprintf(size, sizeof size, "%d", options->height / options->subsample);
+        result = text_list_add(arguments, err, "+W%d", switches->width / options->subsample);
         if (!result)
-            result = add_argument(arguments, &count, err, "+H%s", size);
+            result = text_list_add(arguments, err, "+H%d", switches->height / options->subsample);
     }
     return result;
 }
 
 /* POV-Ray's messages with the names of the user's files in place of the copies'. */
-static enum result report_failure(const struct run *run, const struct povray_job *job, struct error *err)
+static enum result report_failure(const struct passes *passes, const struct povray_job *job, struct error *err)
 {
     struct buffer text = {0}, translated = {0};
     struct error ignored = {0};
@@ -320,10 +244,10 @@ static enum result report_failure(const struct run *run, const struct povray_job
         char copy[1024];
         snprintf(copy, sizeof copy, "%.*s", end ? (int)(end - name) : 0, name);
         const char *slash = strrchr(copy, '/');
-        int file = scene_file_of_copy(&run->scene, slash ? slash + 1 : copy);
+        int file = scene_file_of_copy(&passes->scene, slash ? slash + 1 : copy);
         result = buffer_add(&translated, at, (size_t)(name - at), &ignored);
         bool wrapper = !strcmp(copy, "pass.pov");
-        const char *path = file >= 0 ? run->scene.files[file].path : wrapper ? run->options->scene : copy;
+        const char *path = file >= 0 ? passes->scene.files[file].path : wrapper ? passes->options->scene : copy;
         if (!result)
             result = buffer_add_text(&translated, path, &ignored);
         at = end ? end : name + strlen(name);
@@ -336,49 +260,40 @@ static enum result report_failure(const struct run *run, const struct povray_job
     }
     if (!result && translated.size) {
         ignored = *err;
-        error_set(err, RESULT_POVRAY, "%s: %s\n%s", run->options->scene, ignored.text, translated.data);
+        error_set(err, RESULT_POVRAY, "%s: %s\n%s", passes->options->scene, ignored.text, translated.data);
     }
     buffer_free(&text);
     buffer_free(&translated);
     return RESULT_POVRAY;
 }
 
-/* The environment with POVINI set to the .ini file that holds where povgloss was started (NULL: none), and LD_PRELOAD
- * where what is read is to be noted. */
-static enum result make_environment(struct run *run, const char *ini, struct error *err)
+/* The environment, but for the .ini file that POV-Ray reads by itself, which the switches hold, and with LD_PRELOAD where
+ * what is read is to be noted. */
+static enum result make_environment(struct passes *passes, struct error *err)
 {
-    bool reads = run->options->reads;
+    static char no_ini[] = "POVINI=../" EMPTY_INI;
     int count = 0, kept = 0;
     while (environ[count])
         count++;
-    run->environment = calloc((size_t)count + 3, sizeof *run->environment);
-    if (!run->environment)
-        return error_memory(err, (double)count * sizeof *run->environment);
+    char **environment = passes->environment = calloc((size_t)count + 3, sizeof *environment);
+    if (!environment)
+        return error_memory(err, (double)count * sizeof *environment);
     for (int i = 0; i < count; i++)
-        if (strncmp(environ[i], "POVINI=", 7) && !(reads && !strncmp(environ[i], "LD_PRELOAD=", 11)))
-            run->environment[kept++] = environ[i];
-    enum result result = ini ? text_printf(&run->variables[0], err, "POVINI=%s", ini) : RESULT_OK;
-    if (!result && reads)
-        result = reads_variable(&run->variables[1], err);
-    for (int i = 0; i < 2; i++)
-        if (run->variables[i])
-            run->environment[kept++] = run->variables[i];
-    return result;
+        if (strncmp(environ[i], "POVINI=", 7) && !(passes->preload && !strncmp(environ[i], "LD_PRELOAD=", 11)))
+            environment[kept++] = environ[i];
+    environment[kept++] = no_ini;
+    environment[kept] = passes->preload;
+    return RESULT_OK;
 }
 
-static enum result prepare_environment(struct run *run, const char *ini, struct error *err)
+static enum result prepare_environment(struct passes *passes, struct error *err)
 {
-    enum result result = link_ini_files(run, err);
-    if (!result && run->options->reads)
-        result = reads_begin(&run->folder, err);
-    return result ? result : make_environment(run, ini, err);
-}
-
-static void free_arguments(char **arguments)
-{
-    for (char **argument = arguments; argument && *argument; argument++)
-        free(*argument);
-    free(arguments);
+    enum result result = write_empty_ini(passes, err);
+    if (!result && passes->options->reads)
+        result = reads_begin(&passes->folder, err);
+    if (!result && passes->options->reads)
+        result = reads_variable(&passes->preload, err);
+    return result ? result : make_environment(passes, err);
 }
 
 static void no_progress(void *context, double done)
@@ -389,157 +304,212 @@ static void no_progress(void *context, double done)
 
 /* POV-Ray parses the scene and is stopped by the wrapper before it draws: that is a success if the log has its last
  * line. */
-static enum result run_discovery(struct run *run, const char *name, const char *folder, struct error *err)
+static enum result run_discovery(struct passes *passes, const char *name, const char *folder, struct error *err)
 {
-    char **arguments = NULL, *path = NULL;
-    int count = 0, failed = -1;
+    struct text_list arguments = {0};
+    char *path = NULL;
+    int failed = -1;
     struct input_file log = {0};
     struct error ignored;
-    enum result result = scene_arguments(run, &arguments, &count, err);
-    struct povray_job job = {.name = name, .folder = folder, .arguments = arguments};
+    enum result result = scene_arguments(passes, passes->frame, &arguments, err);
+    struct povray_job job = {.name = name, .folder = folder, .arguments = arguments.texts};
     if (!result)
         result = text_printf(&path, err, "%s/" SCENE_DISCOVERY_LOG, folder);
     if (!result)
-        result = povray_run(&job, 1, 1, run->environment, no_progress, NULL, &failed, err);
+        result = povray_run(&job, 1, 1, passes->environment, no_progress, NULL, &failed, err);
     if (failed >= 0 && !input_file_read(path, &log, &ignored) && log.size >= 4 &&
         !memcmp(log.data + log.size - 4, "end\n", 4))
         result = RESULT_OK;
     else if (failed >= 0)
-        result = report_failure(run, &job, err);
+        result = report_failure(passes, &job, err);
     input_file_free(&log);
     povray_jobs_free(&job, 1);
-    free_arguments(arguments);
+    text_list_free(&arguments);
     free(path);
     return result;
 }
 
 /* Finds the files that only POV-Ray knows; what is included by a new file is found in a further run. */
-static enum result discover(struct run *run, struct error *err)
+static enum result discover(struct passes *passes, struct error *err)
 {
-    bool again = run->scene.needs_discovery;
     enum result result = RESULT_OK;
-    for (int round = 1; !result && again; round++) {
+    for (bool again = true; !result && again;) {
         char name[32], *folder = NULL;
         struct buffer text = {0};
-        snprintf(name, sizeof name, "discovery%d", round);
-        result = text_printf(&folder, err, "%s/%s", run->folder.path, name);
+        snprintf(name, sizeof name, "discovery%d", ++passes->discoveries);
+        result = text_printf(&folder, err, "%s/%s", passes->folder.path, name);
         if (!result)
-            result = pass_discovery_text(&run->scene, &text, err);
+            result = work_folder_add(&passes->folder, name, err);
         if (!result)
-            result = write_wrapper(run, name, &text, err);
+            result = pass_discovery_text(&passes->scene, &text, err);
         if (!result)
-            result = write_copy(run, SCENE_COPY_DISCOVERY, err);
+            result = write_wrapper(passes, name, &text, err);
         if (!result)
-            result = run_discovery(run, name, folder, err);
+            result = write_copy(passes, SCENE_COPY_DISCOVERY, err);
         if (!result)
-            result = scene_discover(&run->scene, folder, (const char *const *)run->directories,
-                                    run->directory_count, &again, err);
+            result = run_discovery(passes, name, folder, err);
+        if (!result)
+            result = scene_discover(&passes->scene, folder, (const char *const *)passes->directories.texts,
+                                    passes->directories.count, &again, err);
         buffer_free(&text);
         free(folder);
     }
-    return result;
+    return result ? result : scene_settle(&passes->scene, err);
 }
 
-static enum result run_passes(struct run *run, struct error *err)
+static enum result run_passes(struct passes *passes, int frame, struct error *err)
 {
-    const struct passes_options *options = run->options;
-    char **arguments[PASS_COUNT] = {0}, *folders[PASS_COUNT] = {0};
+    const struct passes_options *options = passes->options;
+    struct text_list arguments[PASS_COUNT] = {0};
+    char *folders[PASS_COUNT] = {0};
     enum result result = RESULT_OK;
-    for (int i = 0; !result && i < run->job_count; i++) {
-        result = job_arguments(run, run->ids[i], &arguments[i], err);
+    for (int i = 0; !result && i < passes->job_count; i++) {
+        result = job_arguments(passes, passes->ids[i], frame, &arguments[i], err);
         if (!result)
-            result = text_printf(&folders[i], err, "%s/%s", run->folder.path, pass_table[run->ids[i]].name);
-        run->jobs[i] = (struct povray_job){
-            .name = pass_table[run->ids[i]].name, .folder = folders[i], .arguments = arguments[i]};
+            result = text_printf(&folders[i], err, "%s/%s", passes->folder.path, pass_table[passes->ids[i]].name);
+        passes->jobs[i] = (struct povray_job){
+            .name = pass_table[passes->ids[i]].name, .folder = folders[i], .arguments = arguments[i].texts};
     }
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     if (!result)
-        result = povray_run(run->jobs, run->job_count, at_once, run->environment, options->progress,
+        result = povray_run(passes->jobs, passes->job_count, at_once, passes->environment, options->progress,
                             options->progress_context, &failed, err);
     if (failed >= 0)
-        result = report_failure(run, &run->jobs[failed], err);
-    for (int i = 0; i < run->job_count; i++) {
-        free_arguments(arguments[i]);
+        result = report_failure(passes, &passes->jobs[failed], err);
+    povray_jobs_free(passes->jobs, passes->job_count);
+    for (int i = 0; i < passes->job_count; i++) {
+        text_list_free(&arguments[i]);
         free(folders[i]);
     }
     return result;
 }
 
-static enum result collect_reads(const struct run *run, struct error *err)
+static enum result collect_reads(struct passes *passes, struct error *err)
 {
-    const struct passes_options *options = run->options;
-    struct reads_places places = {.scene = &run->scene,
-                                  .directories = (const char *const *)run->directories,
-                                  .names = (const char *const *)run->directory_names,
-                                  .count = run->linked_count,
-                                  .switches = options->switches,
-                                  .switch_count = options->switch_count};
-    return reads_collect(&run->folder, &places, options->reads, err);
+    const struct reads_places places = {.scene = &passes->scene,
+                                        .directories = &passes->directories,
+                                        .names = &passes->directory_names};
+    return reads_collect(&passes->folder, &places, &passes->reads, err);
 }
 
-static enum result check_scene(const struct run *run, struct error *note, struct error *err)
+static enum result check_scene(const struct passes *passes, struct error *note, struct error *err)
 {
-    const struct scene *scene = &run->scene;
+    const struct scene *scene = &passes->scene;
     bool chosen = scene->choice->automatic || scene->choice->all;
     if (!scene->glossy && !chosen)
         return error_set(err, RESULT_DATA,
                          "%s: nothing in this scene is glossy: write #include \"povgloss.inc\", and Gloss(300) in a finish "
                          "that has a reflection, or choose finishes with --gloss",
-                         run->options->scene);
+                         passes->options->scene);
     if (!scene->glossy)
         error_set(note, RESULT_OK, "%s: no finish is glossy with this --gloss: the picture is POV-Ray's own",
-                  run->options->scene);
+                  passes->options->scene);
     if (scene->atmosphere)
         error_set(note, RESULT_OK,
                   "%s: the scene's %s between the eye and a glossy surface is also seen in its reflection; the picture "
                   "there is too bright by its share",
-                  run->options->scene, scene->atmosphere);
+                  passes->options->scene, scene->atmosphere);
     return RESULT_OK;
 }
 
-enum result passes_render(const struct passes_options *options, struct gbuffer *gbuffer, struct error *note,
+/* The images of a long animation don't pile up. */
+static enum result remove_images(const struct passes *passes, const struct pass_images *images, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < passes->job_count; i++) {
+        char *path;
+        result = pass_image_path(images, passes->ids[i], &path, err);
+        if (!result)
+            remove(path);
+        free(path);
+    }
+    return result;
+}
+
+/* Reads the scene and writes those of the passes. */
+static enum result prepare(struct passes *passes, int frame, struct error *note, struct error *err)
+{
+    passes->frame = frame;
+    note->text[0] = 0;
+    enum result result = load_scene(passes, err);
+    if (!result && passes->scene.needs_discovery)
+        result = discover(passes, err);
+    if (!result)
+        result = check_scene(passes, note, err);
+    return result ? result : write_scenes(passes, err);
+}
+
+/* What POV-Ray computes may be something else in another frame. */
+static enum result prepare_frame(struct passes *passes, int frame, struct error *err)
+{
+    struct error ignored;
+    if (frame == passes->frame || !passes->scene.needs_discovery)
+        return RESULT_OK;
+    scene_free(&passes->scene);
+    return prepare(passes, frame, &ignored, err);
+}
+
+enum result passes_open(const struct passes_options *options, struct passes **opened, struct error *note,
+                        struct error *err)
+{
+    const struct povray_switches *switches = options->switches;
+    assert(options->subsample >= 1 && (options->subsample == 1 || (switches->width > 0 && switches->height > 0)));
+    struct passes *passes = *opened = calloc(1, sizeof *passes);
+    if (!passes)
+        return error_memory(err, sizeof *passes);
+    passes->options = options;
+    enum result result = work_folder_make(&passes->folder, options->keep, err);
+    if (!result)
+        result = work_folder_add(&passes->folder, "copies", err);
+    if (!result)
+        result = find_directories(passes, err);
+    if (!result)
+        result = link_directories(passes, err);
+    if (!result)
+        result = prepare_environment(passes, err);
+    return result ? result : prepare(passes, options->frames.first, note, err);
+}
+
+enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
                           struct error *err)
 {
-    assert(options->subsample >= 1 && (options->subsample == 1 || (options->width > 0 && options->height > 0)));
-    struct run run = {.options = options};
-    char *ini = NULL;
+    const struct passes_options *options = passes->options;
+    char number[FRAMES_NUMBER_SIZE];
+    frames_number(&options->frames, frame, number);
+    const struct pass_images images = {.folder = passes->folder.path,
+                                       .number = number,
+                                       .name = options->scene,
+                                       .scene = &passes->scene,
+                                       .subsample = options->subsample};
     *gbuffer = (struct gbuffer){0};
     note->text[0] = 0;
-    enum result result = find_ini(&ini, err);
+    enum result result = prepare_frame(passes, frame, err);
     if (!result)
-        result = work_folder_make(&run.folder, options->keep, err);
-    if (!result)
-        result = load_scene(&run, ini, err);
-    if (!result)
-        result = link_directories(&run, err);
-    if (!result)
-        result = work_folder_add(&run.folder, "copies", err);
-    if (!result)
-        result = prepare_environment(&run, ini, err);
-    if (!result)
-        result = discover(&run, err);
-    if (!result)
-        result = check_scene(&run, note, err);
-    if (!result)
-        result = write_scenes(&run, err);
-    if (!result)
-        result = run_passes(&run, err);
+        result = run_passes(passes, frame, err);
     if (!result && options->reads)
-        result = collect_reads(&run, err);
-    if (!result) {
-        struct pass_images images = {
-            .folder = run.folder.path, .name = options->scene, .scene = &run.scene, .subsample = options->subsample};
+        result = collect_reads(passes, err);
+    if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
-    }
+    if (!result && !options->keep)
+        result = remove_images(passes, &images, err);
     if (result)
         gbuffer_free(gbuffer);
-    povray_jobs_free(run.jobs, run.job_count);
-    scene_free(&run.scene);
-    free_directories(&run);
-    free(run.environment);
-    free(run.variables[0]);
-    free(run.variables[1]);
-    free(ini);
-    work_folder_remove(&run.folder);
     return result;
+}
+
+enum result passes_reads(const struct passes *passes, struct buffer *files, struct error *err)
+{
+    return reads_list(&passes->reads, passes->options->scene, &passes->options->switches->ini_files, files, err);
+}
+
+void passes_close(struct passes *passes)
+{
+    if (!passes)
+        return;
+    free_scene(passes);
+    reads_free(&passes->reads);
+    free(passes->environment);
+    free(passes->preload);
+    work_folder_remove(&passes->folder);
+    free(passes);
 }

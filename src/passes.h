@@ -14,34 +14,45 @@
 
 #include "gbuffer.h"
 #include "povray.h"
-#include "scene_rewrite.h"
-#include "scene_rewrite.h"
+#include "povray_switches.h"
+#include "scene.h"
 
 struct passes_options {
-    const char *scene;             /* path of the .pov file */
-    const char *povray;            /* the program: "povray" is looked up in PATH */
-    const char *keep;              /* folder for the rewritten scenes and raw images, which stays; NULL: none */
-    struct gloss_choice gloss;     /* finishes to make glossy */
-    const char *const *switches;   /* POV-Ray's own, passed through in their order */
-    int switch_count;
-    const char *const *libraries;  /* the user's +L folders, in their order */
-    int library_count;
-    bool antialias;                /* the switches ask for it */
-    int width, height;             /* of the image where the switches say it, else 0 */
-    int subsample;                 /* 1; 2 or 4: specular, a and b are traced at every so-many-th pixel and interpolated */
-    int jobs;                      /* POV-Ray processes at the same time; 0: two more than there are cores */
-    struct buffer *reads;          /* gets the files that POV-Ray read (reads.h); NULL: not asked */
+    const char *scene;  /* path of the .pov file */
+    const char *povray; /* the program: "povray" is looked up in PATH */
+    const char *keep;   /* folder for the rewritten scenes and raw images, which stays; NULL: none */
+    const struct povray_switches *switches;
+    struct gloss_choice gloss; /* finishes to make glossy */
+    struct frames frames; /* those that the switches ask for */
+    int subsample;        /* 1; 2 or 4: specular, a and b are traced at every so-many-th pixel and interpolated; then the
+                             switches say the size */
+    int jobs;             /* POV-Ray processes at the same time; 0: two more than there are cores */
+    bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;
 };
 
-/* Renders all passes of the scene into *gbuffer, which the caller frees. RESULT_DATA for a scene that can't be taken (with
- * file and line) or that has nothing glossy, RESULT_POVRAY with POV-Ray's own message, named by the user's files. *note is
- * a warning worth a line to the user, or empty. No folder (but `keep`) and no process is left. */
-MUST_CHECK enum result passes_render(const struct passes_options *options, struct gbuffer *gbuffer, struct error *note,
+struct passes;
+
+/* Reads the scene as passes_open does, and runs nothing: it may need a discovery. The caller frees it, also after a
+ * failure. */
+MUST_CHECK enum result passes_load_scene(const struct passes_options *options, struct scene *scene, struct error *err);
+
+/* Reads the scene and writes the passes' scenes. RESULT_DATA for a scene that can't be taken (with file and line) or that
+ * has nothing glossy. *note is a warning worth a line to the user, or empty. The options are not copied: they must outlive
+ * *passes. The caller closes *passes, also after a failure. */
+MUST_CHECK enum result passes_open(const struct passes_options *options, struct passes **passes, struct error *note,
+                                   struct error *err);
+
+/* Renders all passes of one frame into *gbuffer, which the caller frees. RESULT_POVRAY with POV-Ray's own message, named by
+ * the user's files. *note as above. No process is left. */
+MUST_CHECK enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
                                      struct error *err);
 
-/* Reads the scene as passes_render does, and runs nothing; the caller frees it, also after a failure. */
-MUST_CHECK enum result passes_load_scene(const struct passes_options *options, struct scene *scene, struct error *err);
+/* Adds the files that POV-Ray and povgloss read for the frames that were rendered to *files, as reads_list does. */
+MUST_CHECK enum result passes_reads(const struct passes *passes, struct buffer *files, struct error *err);
+
+/* Leaves no folder but `keep`. NULL is allowed. */
+void passes_close(struct passes *passes);
 
 #endif

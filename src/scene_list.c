@@ -24,29 +24,6 @@ struct finish {
     int reflection, exponent; /* the keyword or the macro's name */
 };
 
-/* The token after the value of `#declare X = ...` or the body of `#macro X ...`, whose directive is at `token`. */
-static int declaration_end(const struct scene_file *file, int token)
-{
-    int end = token + 2;
-    if (is_directive(file, token, "macro")) {
-        struct nesting nesting = {0};
-        for (end = token; end < file->list.count; end++) {
-            nest(&nesting, file, end);
-            if (!nesting.macro)
-                break;
-        }
-        return end;
-    }
-    while (end < file->list.count && file->list.tokens[end].kind != TOKEN_DIRECTIVE && !is_mark(file, end, ";")) {
-        bool block = is_mark(file, end, "{") && file->list.tokens[end].match > 0;
-        end = block ? file->list.tokens[end].match + 1 : end + 1;
-        /* A block ends the value, but for the further layers of a texture. */
-        if (block && !is_word(file, end, "texture"))
-            break;
-    }
-    return end;
-}
-
 static void words_free(struct words *words, int count)
 {
     for (int i = 0; words && i < count; i++) {
@@ -76,16 +53,16 @@ static enum result words_make(const struct scene *scene, struct words **all, str
         /* Outer declarations come first, and inner ones go over them. */
         for (int token = 0; token < file->list.count - 1; token++) {
             bool macro = is_directive(file, token, "macro");
-            if (words->name[token + 1] < 0 ||
-                (!macro && !is_directive(file, token, "declare") && !is_directive(file, token, "local")))
+            int name = declared_name(file, token);
+            if (name < 0 || words->name[name] < 0)
                 continue;
-            int end = declaration_end(file, token);
-            for (int inner = token + 1; inner < end; inner++) {
-                words->around[inner] = words->name[token + 1];
+            int last = macro ? end_of_macro(file, token) : last_of_value(file, name + 1);
+            for (int inner = token + 1; inner <= last; inner++) {
+                words->around[inner] = words->name[name];
                 if (!macro)
-                    words->declared[inner] = words->name[token + 1];
+                    words->declared[inner] = words->name[name];
             }
-            words->name[token + 1] = -1; /* it isn't a use */
+            words->name[name] = -1; /* it isn't a use */
         }
     }
     return *all ? RESULT_OK : error_memory(err, (double)scene->file_count * sizeof **all);
@@ -132,7 +109,6 @@ static void read_finish(const struct scene *scene, const struct scene_file *file
                         struct finish *finish)
 {
     static const char *const gloss[] = {"Gloss", "Gloss_Roughness", NULL};
-    static const char *const highlight[] = {"phong_size", "roughness", NULL};
     int inner;
     const struct scene_file *declared = find_finish(scene, file, brace + 1, &inner);
     if (declared && depth < MAX_INHERITANCE)
@@ -144,7 +120,7 @@ static void read_finish(const struct scene *scene, const struct scene_file *file
         if (is_word(file, token, "reflection") && file->list.tokens[token].parent == brace) {
             finish->reflection = token;
             finish->reflection_file = file;
-        } else if (call || (!glossy && in_list(file, token, highlight))) {
+        } else if (call || (!glossy && in_list(file, token, highlight_words))) {
             finish->exponent = token;
             finish->exponent_file = file;
             glossy |= call;

@@ -2,7 +2,7 @@
 #ifndef POVGLOSS_SCENE_LIST_H
 #define POVGLOSS_SCENE_LIST_H
 
-#include "scene_rewrite.h"
+#include "scene.h"
 
 /* Appends a table to *text: a header and a line for each finish, in the order of the files and lines. Columns are
  * aligned and `-` where there is nothing; none but the last holds a space of its own:

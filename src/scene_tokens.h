@@ -3,10 +3,16 @@
 #ifndef POVGLOSS_SCENE_TOKENS_H
 #define POVGLOSS_SCENE_TOKENS_H
 
-#include "scene_rewrite.h"
+#include "scene.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* What may follow the = of a name that can be made glossy. */
+static const char *const glossy_words[] = {"finish", "texture", "material", NULL};
+
+/* The items of a finish whose values are the lobe of a highlight. */
+static const char *const highlight_words[] = {"phong_size", "roughness", NULL};
 
 static inline bool is_word(const struct scene_file *file, int token, const char *word)
 {
@@ -74,6 +80,25 @@ static inline void nest(struct nesting *nesting, const struct scene_file *file, 
     }
 }
 
+/* The token that says what kind of block an opening brace begins: `union {`, `function (x, y) {`, `function 9, 9 {`. */
+static inline int block_keyword(const struct scene_file *file, int brace)
+{
+    int token = brace - 1;
+    if (is_mark(file, token, ")") && file->list.tokens[token].match > 0)
+        token = file->list.tokens[token].match - 1;
+    while (token > 0 && (file->list.tokens[token].kind == TOKEN_NUMBER || is_mark(file, token, ",")))
+        token--;
+    return token;
+}
+
+static inline bool inside(const struct scene_file *file, int token, const char *keyword)
+{
+    for (int brace = file->list.tokens[token].parent; brace >= 0; brace = file->list.tokens[brace].parent)
+        if (brace > 0 && is_word(file, block_keyword(file, brace), keyword))
+            return true;
+    return false;
+}
+
 static inline bool is_zero(const struct scene_file *file, int token)
 {
     static const char *const operators[] = {"+", "-", "*", "/", NULL};
@@ -115,10 +140,66 @@ static inline int value_end(const struct scene_file *file, int token)
     }
 }
 
+/* The token after the string expression that begins at `token`. */
+static inline int string_end(const struct scene_file *file, int token)
+{
+    if (file->list.tokens[token].kind == TOKEN_STRING)
+        return token + 1;
+    return file->list.tokens[token].kind == TOKEN_WORD ? value_end(file, token) : token;
+}
+
 static inline const char *base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
+}
+
+/* The name that the directive at `token` declares, or -1: `#declare deprecated once "message" X`, `#macro X`. */
+static inline int declared_name(const struct scene_file *file, int token)
+{
+    if (is_directive(file, token, "macro"))
+        return token + 1;
+    if (!is_directive(file, token, "declare") && !is_directive(file, token, "local"))
+        return -1;
+    token++;
+    if (is_word(file, token, "deprecated")) {
+        token += 1 + is_word(file, token + 1, "once");
+        token += file->list.tokens[token].kind == TOKEN_STRING;
+    }
+    return token;
+}
+
+/* The last token of the value that is declared from `token` on, roughly: never too early. */
+static inline int last_of_value(const struct scene_file *file, int token)
+{
+    while (token < file->list.count - 1 && file->list.tokens[token].kind != TOKEN_DIRECTIVE && !is_mark(file, token, ";")) {
+        int match = is_mark(file, token, "{") ? file->list.tokens[token].match : -1;
+        if (match > 0 && !is_word(file, match + 1, "texture"))
+            return match;
+        token = match > 0 ? match + 1 : token + 1;
+    }
+    return token;
+}
+
+/* The #end of the #macro at `token`. */
+static inline int end_of_macro(const struct scene_file *file, int token)
+{
+    int depth = 0;
+    for (; token < file->list.count - 1; token++) {
+        if (file->list.tokens[token].kind != TOKEN_DIRECTIVE)
+            continue;
+        depth += opens_nesting(file, token);
+        depth -= is_directive(file, token, "end");
+        if (depth <= 0)
+            break;
+    }
+    return token;
+}
+
+/* Whether one of the tokens may be transparent. */
+static inline bool may_be_clear(const struct scene_file *file, int first, int last)
+{
+    return last >= first && file->clear[last + 1] > file->clear[first];
 }
 
 /* The index of the word at `token` in a list of names, or -1. */

@@ -62,7 +62,7 @@ tells_version() {
 
 filter_options=(--phong --roughness --mode --weights --formula --window --energy --max-angle --max-radius --radius-step
     --threads --isa --format --bits)
-own_options=(--depfile -o --subsample --jobs --keep --povray)
+own_options=(--depfile -o --from-scene --resume --subsample --jobs --keep --povray)
 check "povgloss --help names every option" \
     helps povgloss "${own_options[@]}" "${filter_options[@]}" --layers -q --quiet --help --version
 check "glossfilter --help names every option" \
@@ -86,8 +86,8 @@ check "glossfilter with two passes files" refuses glossfilter "b.exr" passes.exr
 check "glossfilter with an unknown option" refuses glossfilter "--nonsense: unknown option" passes.exr -o x.exr --nonsense
 check "glossfilter with an unknown short option" refuses glossfilter "-z: unknown option" passes.exr -o x.exr -z
 
-# Switches of POV-Ray that would take the passes' images away.
-for switch in +Oelsewhere.png +FN Output_File_Name=elsewhere.png +HIhead.inc +KFF10 Final_Frame=10; do
+# Switches of POV-Ray that the passes can't have.
+for switch in +Oelsewhere.png +FN Output_File_Name=elsewhere.png +HIhead.inc Pre_Scene_Command=true; do
     check "povgloss with POV-Ray's $switch" refuses povgloss "$switch can't be passed on" render scene.pov "$switch" -o x.png
 done
 
@@ -129,6 +129,7 @@ done
 check "povgloss: an empty output" refuses povgloss "" render scene.pov -o ""
 check "glossfilter: an empty output" refuses glossfilter "" passes.exr -o ""
 
+export POVINI=/dev/null # the usual one says a size
 check "--subsample without +W and +H" refuses povgloss "+W and +H" render scene.pov -o x.png --subsample 2
 check "--subsample with +W alone" refuses povgloss "+W and +H" render scene.pov +W640 -o x.png --subsample 2
 check "--subsample of a size that is no multiple" \

@@ -124,6 +124,76 @@ absolute() {
 }
 check "absolute names stay absolute" absolute
 
+# ---- .ini files and animations
+
+ini_files() {
+    printf 'Include_Ini=size.ini\n[Large]\n+W640\n' > all.ini
+    "$bin/povgloss" render 'my scene.pov' '+Llib $1' 'all.ini' -A --quiet --depfile ini.d -o 'my picture$.png' || return 1
+    grep -q '^ all.ini' ini.d && grep -q '^ size.ini' ini.d && grep -q '^all.ini:$' ini.d && grep -q '^size.ini:$' ini.d
+}
+check "an .ini file that reads another: both" ini_files
+
+# Each frame reads files of its own, by names that only POV-Ray knows; what they hold isn't the same either.
+cat > frames.pov << 'POV'
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+#include "povgloss.inc"
+camera { location <0, 2, -6> look_at 0 }
+light_source { <-5, 8, -6> rgb 1 }
+#fopen Data concat("frame", str(frame_number, 0, 0), ".txt") read
+#read (Data, Height)
+#include concat("frame", str(frame_number, 0, 0), ".inc")
+#fopen Own "own.inc" write
+#write (Own, "sphere { <1, ", frame_number/3, ", 0>, 0.5 pigment { rgb x } finish { reflection 0.2 Gloss(30) } }")
+#fclose Own
+#include "own.inc"
+plane { y, 0 pigment { rgb 0.2 } finish { reflection 0.5 Gloss(50) } }
+POV
+for number in 1 2 3; do
+    echo "$number," > "frame$number.txt"
+    echo "sphere { <-1, Height/2, 0>, $number/5 pigment { rgb y } finish { reflection 0.3 Gloss(20) } }" > "frame$number.inc"
+done
+mkdir plain
+cp 'lib $1/povgloss.inc' plain
+frames=(+Lplain +W32 +H24 -A +KFF3)
+frames_are_povrays() {
+    local number
+    povray +Iframes.pov "${frames[@]}" -D +FE +Otruth.exr > povray.log 2>&1 || { tail -5 povray.log; return 1; }
+    "$bin/povgloss" passes frames.pov "${frames[@]}" --quiet --depfile frames.d -o 'frame$.exr' || return 1
+    for number in 1 2 3; do
+        "$bin/glossfilter" "frame\$$number.exr" --phong inf -o mirror.exr && same_picture "truth$number.exr" mirror.exr ||
+            { echo "frame $number"; return 1; }
+    done
+    expect_nothing_left
+}
+check "includes that are other files in every frame: the frames are POV-Ray's own" frames_are_povrays
+cat > Frames.mk << 'MK'
+frame$$1.exr frame$$2.exr frame$$3.exr &:; exit 1
+include frames.d
+MK
+frames_depend() {
+    local number file
+    for file in frame{1,2,3}.{txt,inc} frames.pov plain/povgloss.inc; do
+        touch -d 2001-01-01 frame* plain/povgloss.inc
+        touch -d 2002-02-02 'frame$'*.exr
+        for number in 1 2 3; do
+            make -q -f Frames.mk "frame\$$number.exr" || fail "make would redraw frame $number" || return 1
+        done
+        touch "$file"
+        for number in 1 2 3; do
+            ! make -q -f Frames.mk "frame\$$number.exr" || fail "$file isn't for frame $number" || return 1
+        done
+    done
+}
+check "an animation: every frame depends on every file" frames_depend
+frame_fails() {
+    echo old > old.d
+    echo wrong > frame3.inc
+    run "$bin/povgloss" passes frames.pov "${frames[@]}" --quiet --depfile old.d -o part.exr
+    expect_status 4 && expect_message "frame 3: frames.pov" && [ -s part2.exr ] && expect_no_file part3.exr && [ "$(cat old.d)" = old ]
+}
+check "a frame that fails leaves the older rule" frame_fails
+
 # ---- failures
 
 refused() {
@@ -137,6 +207,7 @@ for name in 'a;b.png' 'a%b.png' 'a=b.png' 'a|b.png' '~a.png' $'a\tb.png' $'a\nb.
     check "an output that no rule can name: ${name//[$'\n\t']/?}" refused 3 "make can't take" -o "$name"
 done
 check "an output without a name" refused 2 "-o - has none" -o -
+check "frames that are there already" refused 2 "--resume" --resume -o 'my picture$.png'
 fails() {
     echo old > old.d
     { cat 'my scene.pov'; echo '#error "oops"'; } > wrong.pov

@@ -14,15 +14,6 @@ render_both() {
         "$bin/glossfilter" "$scratch/$name.exr" -o "$scratch/$name-glossy.exr"
 }
 
-rmse() {
-    oiiotool -a --diff "$1" "$2" | awk '/RMS error/ { print $4 }'
-}
-
-is_same() {
-    oiiotool -a --fail 0.01 --failpercent 0.1 --hardfail inf --diff "$1" "$2" || return 1
-    awk -v rmse="$(rmse "$1" "$2")" 'BEGIN { exit !(rmse != "" && rmse <= 0.002) }'
-}
-
 is_blurred() {
     awk -v rmse="$(rmse "$1" "$2")" 'BEGIN { print "RMSE", rmse; exit !(rmse > 0.004) }'
 }
@@ -31,7 +22,7 @@ for scene in povscenes/*.pov; do
     name=$(basename "$scene" .pov)
     check "render__${name}__works" render_both "$name"
     check "render__${name}_at_infinite_exponent__is_povrays_picture" \
-        is_same "$scratch/$name-povray.exr" "$scratch/$name-mirror.exr"
+        same_picture "$scratch/$name-povray.exr" "$scratch/$name-mirror.exr"
     check "render__${name}_at_its_exponents__is_blurred" is_blurred "$scratch/$name-mirror.exr" "$scratch/$name-glossy.exr"
 done
 end_of_tests

@@ -91,3 +91,13 @@ expect_nothing_left() {
         esac
     done
 }
+
+rmse() {
+    oiiotool -a --diff "$1" "$2" | awk '/RMS error/ { print $4 }'
+}
+
+# same_picture FILE FILE: in linear light, but for the half floats that colours travel as.
+same_picture() {
+    oiiotool -a --fail 0.01 --failpercent 0.1 --hardfail inf --diff "$1" "$2" || return 1
+    awk -v rmse="$(rmse "$1" "$2")" 'BEGIN { exit !(rmse != "" && rmse <= 0.002) }'
+}

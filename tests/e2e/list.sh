@@ -73,8 +73,11 @@ global_settings { assumed_gamma 1.0 }
 #declare C = finish { roughness 0.001 reflection 0.2 phong_size 30 }
 #declare D = finish { A Gloss(77) }
 #declare E = finish { C reflection 0.1 roughness 1/400 }
-#macro Ball(N, F) sphere { x*N, 0.5 pigment { rgb 0.5 } finish { F } } #end
-Ball(-2, A) Ball(-1, B) Ball(0, C) Ball(1, D) Ball(2, E)
+sphere { -2*x, 0.5 pigment { rgb 0.5 } finish { A } }
+sphere { -x, 0.5 pigment { rgb 0.5 } finish { B } }
+sphere { 0, 0.5 pigment { rgb 0.5 } finish { C } }
+sphere { x, 0.5 pigment { rgb 0.5 } finish { D } }
+sphere { 2*x, 0.5 pigment { rgb 0.5 } finish { E } }
 camera { orthographic location -z*5 right x*6 up y*1.5 look_at 0 }
 POV
 agrees() {
@@ -114,6 +117,25 @@ by_library() {
     expect_status 0 && grep -q '^F_Used  *elsewhere/used.inc:3 ' out
 }
 check "includes are found by +L" by_library
+by_ini() {
+    printf 'Input_File_Name=other.pov\nLibrary_Path=elsewhere\n+W640\n' > list.ini
+    "$bin/povgloss" list other.pov +Lelsewhere > expected || return 1
+    run "$bin/povgloss" list list.ini
+    expect_status 0 && [ ! -s err ] && cmp expected out
+}
+check "scene and includes are found by an .ini file" by_ini
+by_comment() {
+    { echo '// +W640 +H480 +Lelsewhere'; cat other.pov; } > comment.pov
+    run "$bin/povgloss" list comment.pov --from-scene
+    expect_status 0 && grep -q '^F_Used  *elsewhere/used.inc:3 ' out
+}
+check "switches from the scene's comment" by_comment
+deprecated() {
+    printf '#declare deprecated once "old" Old = finish { reflection 0.3 }\nsphere { 0, 1 finish { Old } }\n' > old.pov
+    run "$bin/povgloss" list old.pov
+    expect_status 0 && grep -q '^Old  *old.pov:1 ' out
+}
+check "a deprecated name" deprecated
 refused() {
     local expected=$1 message=$2
     shift 2
@@ -122,6 +144,7 @@ refused() {
 }
 check "a missing scene" refused 3 "none.pov: cannot be opened" none.pov
 check "an output" refused 2 "standard output" balls.pov -o x.txt
+check "a depfile" refused 2 "standard output" balls.pov --depfile x.d
 check "an option of the filter" refused 2 "standard output" balls.pov --phong 3
 check "no scene" refused 2 "no scene"
 full_disk() {

@@ -8,10 +8,6 @@ render() {
         "$bin/glossfilter" "$scratch/passes$1.exr" --radius-step 1 -o "$scratch/image$1.exr"
 }
 
-rmse() {
-    oiiotool -a --diff "$1" "$2" | awk '/RMS error/ { print $4 }'
-}
-
 is_near() {
     local two four
     two=$(rmse "$scratch/image1.exr" "$scratch/image2.exr")

@@ -63,6 +63,23 @@ static void buffer_printf__long_text__appended(void **state)
     buffer_free(&buffer);
 }
 
+static void text_list__several__in_order_before_a_null(void **state)
+{
+    (void)state;
+    struct text_list list = {0};
+    struct error err;
+    for (int i = 0; i < 100; i++)
+        assert_ok(text_list_add(&list, &err, "%s-%d", "text", i), err);
+    assert_int_equal(list.count, 100);
+    assert_string_equal(list.texts[0], "text-0");
+    assert_string_equal(list.texts[99], "text-99");
+    assert_null(list.texts[100]);
+    text_list_free(&list);
+    assert_null(list.texts);
+    assert_int_equal(list.count, 0);
+    text_list_free(&list);
+}
+
 static void text_printf__format__new_string(void **state)
 {
     (void)state;
@@ -157,6 +174,7 @@ int main(void)
 #endif
         cmocka_unit_test(buffer_printf__long_text__appended),
         cmocka_unit_test(text_printf__format__new_string),
+        cmocka_unit_test(text_list__several__in_order_before_a_null),
         cmocka_unit_test(file_write__any_size__every_byte),
         cmocka_unit_test(file_write__existing_longer_file__replaced),
         cmocka_unit_test(file_write__missing_folder_or_full_device__path_and_reason),
