@@ -32,7 +32,9 @@ PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(wildcard src/main_*.c))
 # The kernel is compiled once per instruction set from one source.
 ISAS := sse2 avx2 avx512
 KERNEL_OBJECTS := $(ISAS:%=$(BUILD)/obj/filter_kernel_%.o)
-LIB_SOURCES := $(filter-out src/main_%.c src/filter_kernel.c,$(wildcard src/*.c))
+# Loaded into POV-Ray for --depfile.
+PRELOAD := $(BUILD)/lib/povgloss_reads.so
+LIB_SOURCES := $(filter-out src/main_%.c src/filter_kernel.c src/preload_reads.c,$(wildcard src/*.c))
 LIB_OBJECTS := $(LIB_SOURCES:src/%.c=$(BUILD)/obj/%.o) $(if $(wildcard src/filter_kernel.c),$(KERNEL_OBJECTS))
 LIBRARY := $(BUILD)/libgloss.a
 UNIT_TESTS := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/test_*.c))
@@ -41,7 +43,7 @@ TOOLS := $(patsubst tests/tools/%.c,$(BUILD)/tests/tools/%,$(wildcard tests/tool
 SCENES := $(patsubst povscenes/%.pov,build/scenes/%.png,$(wildcard povscenes/*.pov))
 
 .PHONY: all
-all: $(PROGRAMS) ## the programs povgloss and glossfilter, in build/bin
+all: $(PROGRAMS) $(PRELOAD) ## the programs povgloss and glossfilter, in build/bin
 
 $(BUILD)/obj/filter_kernel_sse2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=sse2
 $(BUILD)/obj/filter_kernel_avx2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=avx2 -mavx2
@@ -64,6 +66,11 @@ $(BUILD)/obj/exr_io.o: CPPFLAGS += $(EXR_CFLAGS)
 $(BUILD)/obj/%.o: src/%.c $(FLAGS_STAMP)
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+
+# POV-Ray isn't sanitized, and what is loaded into it can't be either.
+$(PRELOAD): src/preload_reads.c $(FLAGS_STAMP)
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(filter-out -fsanitize=%,$(CFLAGS)) -fPIC -shared -o $@ $< -ldl
 
 $(LIBRARY): $(LIB_OBJECTS)
 	rm -f $@
@@ -108,9 +115,11 @@ build/demo.png: povscenes/interior.pov povscenes/povgloss.inc $(PROGRAMS)
 .PHONY: scenes
 scenes: $(SCENES) ## render every povscenes/*.pov to build/scenes/*.png
 
-build/scenes/%.png: povscenes/%.pov povscenes/povgloss.inc $(PROGRAMS)
+build/scenes/%.png: povscenes/%.pov $(PROGRAMS) $(PRELOAD)
 	@mkdir -p $(@D)
-	$(BUILD)/bin/povgloss render $< +W640 +H480 +A0.3 -o $@
+	$(BUILD)/bin/povgloss render $< +W640 +H480 +A0.3 --depfile $(@:.png=.d) -o $@
+
+-include $(SCENES:.png=.d)
 
 # The passes are rendered once; each figure filters them with another roughness. The paper's Theta is below 10 degrees; the
 # radius at every pixel takes no longer than at every fourth, and leaves silhouettes smooth.
@@ -134,7 +143,7 @@ build/figures/figures.png: $(FIGURES)
 	oiiotool $^ --mosaic:pad=8 3x1 -o $@
 
 .PHONY: check
-check: $(PROGRAMS) $(UNIT_TESTS) $(TOOLS) ## all tests; SANITIZE=address,undefined tests a sanitized build
+check: $(PROGRAMS) $(PRELOAD) $(UNIT_TESTS) $(TOOLS) ## all tests; SANITIZE=address,undefined tests a sanitized build
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools CC=$(CC) scripts/check.sh $(UNIT_TESTS)
 
 .PHONY: clean

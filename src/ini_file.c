@@ -19,8 +19,7 @@ struct reader {
     void *context;
 };
 
-/* The length of `path` or `path[section]` without the section. */
-static size_t path_length(const char *argument)
+size_t ini_file_path_length(const char *argument)
 {
     size_t length = strlen(argument);
     const char *section = length && argument[length - 1] == ']' ? strrchr(argument, '[') : NULL;
@@ -29,7 +28,7 @@ static size_t path_length(const char *argument)
 
 size_t ini_file_name(const char *argument)
 {
-    size_t length = path_length(argument);
+    size_t length = ini_file_path_length(argument);
     bool is_switch = argument[0] == '+' || argument[0] == '-';
     return !is_switch && length > 4 && !strncasecmp(argument + length - 4, ".ini", 4) ? length : 0;
 }
@@ -163,7 +162,7 @@ static enum result read_text(struct reader *reader, const char *section, size_t 
 
 enum result ini_file_read(const char *argument, ini_file_take *take, void *context, struct error *err)
 {
-    size_t length = path_length(argument);
+    size_t length = ini_file_path_length(argument);
     const char *section = argument[length] == '[' ? argument + length + 1 : NULL;
     size_t section_length = section ? strlen(section) - 1 : 0;
     struct input_file input = {0};

@@ -10,6 +10,9 @@
  * setting with several values ("Library_Path=a,b") comes once for each. A result but RESULT_OK ends the reading. */
 typedef enum result ini_file_take(void *context, const char *argument, struct error *err);
 
+/* The length of the path in `path` or `path[section]`. */
+size_t ini_file_path_length(const char *argument);
+
 /* The length of the path if the argument names an .ini file (`quality.ini`, `quality.ini[Final]`), else 0. */
 size_t ini_file_name(const char *argument);
 

@@ -3,11 +3,13 @@
  * The command line mixes POV-Ray's switches, which are passed through, with options of two hyphens.
  */
 #include "cli.h"
+#include "depfile.h"
 #include "interrupt.h"
 #include "output_file.h"
 #include "passes.h"
 #include "passes_file.h"
 #include "povray_switches.h"
+#include "scene_list.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,9 +20,11 @@
 static const char help[] =
     "usage: povgloss render SCENE.pov [POV-Ray switches] [options] -o IMAGE\n"
     "       povgloss passes SCENE.pov [POV-Ray switches] [options] -o PASSES.exr\n"
+    "       povgloss list SCENE.pov [POV-Ray switches]\n"
     "\n"
     "Glossy reflections for POV-Ray scenes that say Gloss(300) in a finish (povgloss.inc).\n"
-    "render draws the glossy image; passes writes what glossfilter needs to draw it, again and again.\n"
+    "render draws the glossy image; passes writes what glossfilter needs to draw it, again and again;\n"
+    "list shows the finishes that reflect, and the exponent that each has or that --gloss auto gives it.\n"
     "POV-Ray's switches (+W640 +H480 +A0.3 +Ldir Declare=x=1 file.ini[section]) go to POV-Ray as they are.\n"
     "An animation (+KFF30) is drawn frame by frame, into files numbered as POV-Ray numbers them.\n"
     "\n"
@@ -36,6 +40,7 @@ static const char help[] =
     "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
     "                       interpolate; needs +W and +H\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
+    "  --depfile FILE       write a make rule that names every file the scene read, but the system's\n"
     "  --keep DIR           leave the rewritten scenes and POV-Ray's images in DIR\n"
     "  --povray PROGRAM     the POV-Ray program (default povray)\n";
 
@@ -47,8 +52,11 @@ static const char help_end[] =
     "Exit status: 0 ok, 2 wrong command line, 3 file, data or memory, 4 POV-Ray failed.\n";
 
 struct command {
-    bool passes_only;
+    bool passes_only, list;
     const char *scene, *output;
+    const char *depfile; /* NULL: none */
+    struct buffer reads; /* for its rule: what the outputs were made from, */
+    struct text_list outputs; /* and their names */
     char *path; /* of the scene */
     struct passes_options passes;
     bool from_scene, resume;
@@ -95,6 +103,7 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
     } options[] = {
         {"-o", &command->output, NULL, 0, 0},
         {"--output", &command->output, NULL, 0, 0},
+        {"--depfile", &command->depfile, NULL, 0, 0},
         {"--keep", &command->passes.keep, NULL, 0, 0},
         {"--povray", &command->passes.povray, NULL, 0, 0},
         {"--jobs", NULL, &command->passes.jobs, 0, 64},
@@ -174,8 +183,19 @@ static enum result find_scene(struct command *command, const struct povray_switc
 
 static enum result check_command(struct command *command, const struct povray_switches *switches, struct error *err)
 {
+    if (command->list && (command->output || command->filter_options_used || command->depfile || command->passes.keep ||
+                          command->resume))
+        return error_set(err, RESULT_USAGE,
+                         "povgloss list takes a scene and POV-Ray's switches, and writes to standard output");
+    if (command->list)
+        return RESULT_OK;
     if (!command->output)
         return error_set(err, RESULT_USAGE, "no output: add -o FILE (or -o - for standard output)");
+    if (command->depfile && !strcmp(command->output, "-"))
+        return error_set(err, RESULT_USAGE, "--depfile needs the output's name for its rule: -o - has none");
+    if (command->depfile && command->resume)
+        return error_set(err, RESULT_USAGE,
+                         "--depfile tells what every image was made from, and --resume skips some: leave one of them out");
     if (command->passes_only && command->filter_options_used)
         return error_set(err, RESULT_USAGE, "povgloss passes doesn't filter: give the filter's options to glossfilter");
     int step = command->passes.subsample, count = frames_count(&command->passes.frames);
@@ -198,16 +218,17 @@ static enum result check_command(struct command *command, const struct povray_sw
 static enum result take_arguments(int argc, char **argv, struct command *command, struct povray_switches *switches,
                                   struct error *err)
 {
-    bool has_command = !strcmp(argv[1], "render") || !strcmp(argv[1], "passes");
+    bool has_command = !strcmp(argv[1], "render") || !strcmp(argv[1], "passes") || !strcmp(argv[1], "list");
     *command = (struct command){.passes = {.povray = "povray", .subsample = 1}, .filter = cli_filter_default()};
     if (!has_command && argv[1][0] != '-')
-        return error_set(err, RESULT_USAGE, "unknown command %s: render or passes, see povgloss --help", argv[1]);
+        return error_set(err, RESULT_USAGE, "unknown command %s: render, passes or list, see povgloss --help", argv[1]);
     command->passes_only = has_command && argv[1][0] == 'p';
+    command->list = has_command && argv[1][0] == 'l';
     enum result result = RESULT_OK;
     for (int index = 1 + has_command; !result && index < argc;)
         result = take_argument(argc, argv, &index, command, switches, err);
     if (!result && !has_command && !command->help && !command->version)
-        result = error_set(err, RESULT_USAGE, "no command: write render or passes first, see povgloss --help");
+        result = error_set(err, RESULT_USAGE, "no command: write render, passes or list first, see povgloss --help");
     return result;
 }
 
@@ -248,6 +269,7 @@ static enum result parse(int argc, char **argv, struct command *command, struct 
         result = take_comment(argc, argv, command, switches, err);
     command->passes.scene = command->path;
     command->passes.switches = switches;
+    command->passes.reads = command->depfile;
     command->passes.frames = frames_plan(&switches->frames);
     return result ? result : check_command(command, switches, err);
 }
@@ -297,6 +319,27 @@ static enum result check_place(const char *path, struct error *err)
     return result;
 }
 
+static enum result list(const struct command *command, struct error *err)
+{
+    struct scene scene = {0};
+    struct buffer text = {0};
+    int count = 0;
+    enum result result = passes_load_scene(&command->passes, &scene, err);
+    if (!result)
+        result = scene_list(&scene, &text, &count, err);
+    if (!result && count > 0 && (fputs(text.data, stdout) < 0 || fflush(stdout)))
+        result = error_set(err, RESULT_DATA, "standard output: cannot be written");
+    if (!result && scene.needs_discovery)
+        fprintf(stderr,
+                "povgloss: warning: %s: files that are included by names that POV-Ray computes aren't looked into\n",
+                command->path);
+    if (!result && count == 0)
+        fprintf(stderr, "povgloss: %s: no finish reflects\n", command->path);
+    buffer_free(&text);
+    scene_free(&scene);
+    return result;
+}
+
 static void warn(const struct command *command, const char *frame, const struct error *note)
 {
     struct error warning;
@@ -311,6 +354,7 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
                               const char *path, struct error *err)
 {
     const struct frames *frames = &command->passes.frames;
+    bool last = number + frames->step > frames->last;
     struct progress progress = {.terminal = isatty(STDERR_FILENO), .frame = frame, .shown = -1};
     struct gbuffer gbuffer = {0};
     struct error note;
@@ -332,8 +376,10 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
         fputc('\n', stderr);
     if (!result)
         warn(command, frame, &note);
+    if (!result && last && command->depfile)
+        result = passes_reads(*passes, &command->reads, err);
     /* A pipe whose reader went away ends the program as it writes: no folder is there then. */
-    if (number + frames->step > frames->last) {
+    if (last) {
         passes_close(*passes);
         *passes = NULL;
     }
@@ -352,6 +398,10 @@ static enum result run(struct command *command, struct error *err)
     const struct frames *frames = &command->passes.frames;
     struct passes *passes = NULL;
     enum result result = cli_check_output(command->output, &command->filter, err);
+    if (!result && command->depfile)
+        result = depfile_check_name(command->output, err);
+    if (!result && command->depfile)
+        result = check_place(command->depfile, err);
     for (int number = frames->first; !result && number <= frames->last; number += frames->step) {
         char frame[32] = "", *path = NULL;
         struct stat there;
@@ -365,10 +415,13 @@ static enum result run(struct command *command, struct error *err)
             if (result)
                 error_set(err, result, "%s%s", frame, cause.text);
         }
+        if (!result && command->depfile)
+            result = text_list_add(&command->outputs, err, "%s", path);
         free(path);
     }
     passes_close(passes);
-    return result;
+    return result || !command->depfile ? result
+                                       : depfile_write(command->depfile, &command->outputs, &command->reads, err);
 }
 
 int main(int argc, char **argv)
@@ -382,11 +435,15 @@ int main(int argc, char **argv)
         printf("%s%s%s", help, cli_filter_help, help_end);
     else if (!result && command.version)
         printf("povgloss %s\n", POVGLOSS_VERSION);
+    else if (!result && command.list)
+        result = list(&command, &err);
     else if (!result)
         result = run(&command, &err);
     if (!result && (command.help || command.version) && (fflush(stdout) || ferror(stdout)))
         result = error_set(&err, RESULT_DATA, "standard output: cannot be written");
     free(command.path);
+    buffer_free(&command.reads);
+    text_list_free(&command.outputs);
     povray_switches_free(&switches);
     gloss_choice_free(&command.passes.gloss);
     if (result == RESULT_INTERRUPTED)

@@ -1,6 +1,8 @@
 /* The table of the passes, and the wrapper that puts a pass's copies, macros, textures and skies into one scene. */
 #include "pass_scene.h"
 
+#include "scene_discover.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -329,6 +331,21 @@ static struct scene_part first_part(const struct scene *scene, enum pass_id id)
     if (id == PASS_BASE && !has_second_part(scene, id))
         part = (struct scene_part){.copy = SCENE_COPY_BASE, .finish_end = end_base};
     return part;
+}
+
+enum result pass_discovery_text(const struct scene *scene, struct buffer *text, struct error *err)
+{
+    char *name = NULL;
+    enum result result = scene->version > 0 ? buffer_printf(text, err, "#version %.9g;\n", scene->version) : RESULT_OK;
+    if (!result)
+        result = scene_copy_name(scene, SCENE_COPY_DISCOVERY, 0, &name, err);
+    if (!result)
+        result = buffer_printf(text, err,
+                               "#macro povgloss_camera() #end\n#include \"%s\"\n" SCENE_DISCOVERY_WRITE("\"end\"")
+                               "\n#error \"discovered\"\n",
+                               name);
+    free(name);
+    return result;
 }
 
 enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text, struct error *err)

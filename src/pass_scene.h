@@ -53,6 +53,10 @@ bool pass_needed(const struct scene *scene, enum pass_id id);
 /* Marks the kinds of copies that the pass includes. */
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT]);
 
+/* Appends the scene that includes the discovery copy, writes "end" to its log, and stops by an error: nothing is
+ * rendered. */
+MUST_CHECK enum result pass_discovery_text(const struct scene *scene, struct buffer *text, struct error *err);
+
 /* Appends the pass's scene, which includes the copies' main files by their names. */
 MUST_CHECK enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text,
                                        struct error *err);

@@ -1,9 +1,13 @@
-/* The way from a scene to a gbuffer: find its files, write the passes' scenes, run POV-Ray on all of them at the same time,
- * and read the images. The passes themselves stand in pass_scene.c, their decoding in pass_images.c.
+/* The way from a scene to a gbuffer: find its files (with a run of POV-Ray where only it knows them), write the passes'
+ * scenes, run POV-Ray on all of them at the same time, and read the images. The passes themselves stand in pass_scene.c,
+ * their decoding in pass_images.c.
  */
 #include "passes.h"
 
+#include "input_file.h"
 #include "pass_images.h"
+#include "reads.h"
+#include "scene_discover.h"
 #include "work_folder.h"
 
 #include <assert.h>
@@ -18,25 +22,38 @@ struct passes {
     const struct passes_options *options;
     struct scene scene;
     struct work_folder folder;
-    struct text_list directories; /* where includes are looked for, absolute; they have links lib0, lib1, ... */
+    int frame;                        /* for which the scene was read */
+    struct text_list directories;     /* where includes are looked for, absolute; they have links lib0, lib1, ... */
+    struct text_list directory_names; /* the same as the user wrote them */
+    char **environment;               /* of POV-Ray: the strings are those of environ, a constant and `preload` */
+    char *preload;
+    struct reads reads;
+    int discoveries;
+    bool has_folder[PASS_COUNT];
     struct povray_job jobs[PASS_COUNT];
     enum pass_id ids[PASS_COUNT];
     int job_count;
 };
 
-static enum result write_wrapper(const struct passes *passes, enum pass_id id, struct error *err)
+/* Writes the scene that POV-Ray reads in a folder. */
+static enum result write_wrapper(const struct passes *passes, const char *folder, const struct buffer *text,
+                                 struct error *err)
 {
-    struct buffer text = {0};
-    char *path = NULL;
-    enum result result = work_folder_add(&passes->folder, pass_table[id].name, err);
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s/pass.pov", passes->folder.path, folder);
     if (!result)
-        result = pass_scene_text(&passes->scene, id, &text, err);
-    if (!result)
-        result = text_printf(&path, err, "%s/%s/pass.pov", passes->folder.path, pass_table[id].name);
-    if (!result)
-        result = file_write(path, &text, err);
-    buffer_free(&text);
+        result = file_write(path, text, err);
     free(path);
+    return result;
+}
+
+static enum result write_copy(const struct passes *passes, enum scene_copy copy, struct error *err)
+{
+    char *copies;
+    enum result result = text_printf(&copies, err, "%s/copies", passes->folder.path);
+    if (!result)
+        result = scene_write_copy(&passes->scene, copy, copies, err);
+    free(copies);
     return result;
 }
 
@@ -51,26 +68,36 @@ static enum result write_empty_ini(const struct passes *passes, struct error *er
     return result;
 }
 
+static enum result write_pass(struct passes *passes, enum pass_id id, struct error *err)
+{
+    struct buffer text = {0};
+    enum result result = RESULT_OK;
+    if (!passes->has_folder[id])
+        result = work_folder_add(&passes->folder, pass_table[id].name, err);
+    passes->has_folder[id] = true;
+    if (!result)
+        result = pass_scene_text(&passes->scene, id, &text, err);
+    if (!result)
+        result = write_wrapper(passes, pass_table[id].name, &text, err);
+    buffer_free(&text);
+    return result;
+}
+
 static enum result write_scenes(struct passes *passes, struct error *err)
 {
     bool needed[SCENE_COPY_COUNT] = {false};
-    enum result result = write_empty_ini(passes, err);
-    if (!result)
-        result = work_folder_add(&passes->folder, "copies", err);
+    enum result result = RESULT_OK;
+    passes->job_count = 0;
     for (int id = 0; !result && id < PASS_COUNT; id++) {
         if (!pass_needed(&passes->scene, (enum pass_id)id))
             continue;
         passes->ids[passes->job_count++] = (enum pass_id)id;
         pass_copies(&passes->scene, (enum pass_id)id, needed);
-        result = write_wrapper(passes, (enum pass_id)id, err);
+        result = write_pass(passes, (enum pass_id)id, err);
     }
-    char *copies = NULL;
-    if (!result)
-        result = text_printf(&copies, err, "%s/copies", passes->folder.path);
     for (int copy = 0; !result && copy < SCENE_COPY_COUNT; copy++)
         if (needed[copy])
-            result = scene_write_copy(&passes->scene, (enum scene_copy)copy, copies, err);
-    free(copies);
+            result = write_copy(passes, (enum scene_copy)copy, err);
     return result;
 }
 
@@ -81,6 +108,8 @@ static enum result add_directory(struct passes *passes, const char *path, struct
     char *absolute = realpath(path, NULL);
     /* POV-Ray too passes over a folder that isn't there. */
     enum result result = absolute ? text_list_add(&passes->directories, err, "%s", absolute) : RESULT_OK;
+    if (!result && absolute)
+        result = text_list_add(&passes->directory_names, err, "%s", path);
     free(absolute);
     return result;
 }
@@ -102,6 +131,12 @@ static enum result find_directories(struct passes *passes, struct error *err)
     if (!result)
         result = add_directory(passes, slash ? scene_folder : ".", err);
     free(scene_folder);
+    return result;
+}
+
+static enum result link_directories(const struct passes *passes, struct error *err)
+{
+    enum result result = RESULT_OK;
     for (int i = 0; !result && i < passes->directories.count; i++) {
         char name[32];
         snprintf(name, sizeof name, "lib%d", i);
@@ -110,15 +145,39 @@ static enum result find_directories(struct passes *passes, struct error *err)
     return result;
 }
 
+static enum result load_scene(struct passes *passes, struct error *err)
+{
+    return scene_load(&passes->scene, passes->options->scene, &passes->options->gloss,
+                      (const char *const *)passes->directories.texts, passes->directories.count, err);
+}
+
+static void free_scene(struct passes *passes)
+{
+    scene_free(&passes->scene);
+    text_list_free(&passes->directories);
+    text_list_free(&passes->directory_names);
+}
+
+enum result passes_load_scene(const struct passes_options *options, struct scene *scene, struct error *err)
+{
+    struct passes passes = {.options = options};
+    enum result result = find_directories(&passes, err);
+    if (!result)
+        result = load_scene(&passes, err);
+    *scene = passes.scene;
+    passes.scene = (struct scene){0};
+    free_scene(&passes);
+    return result;
+}
+
 /* ---- running ---- */
 
-/* The user's switches first, then those on which the pass depends: POV-Ray takes the last one. */
-static enum result job_arguments(const struct passes *passes, enum pass_id id, int frame, struct text_list *arguments,
-                                 struct error *err)
+/* The program, the user's switches, where files are looked for, the scene and its frame. */
+static enum result scene_arguments(const struct passes *passes, int frame, struct text_list *arguments,
+                                   struct error *err)
 {
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
-    const struct pass *pass = &pass_table[id];
     /* POV-Ray runs in a folder of its own. */
     char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
     enum result result = text_list_add(arguments, err, "%s", program ? program : options->povray);
@@ -130,17 +189,28 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     for (int i = 0; !result && i < passes->directories.count; i++)
         result = text_list_add(arguments, err, "+L../lib%d", i);
     static const char *const always[] = {"+Ipass.pov", "-D", "-P", "-C", "-UA", "+GA", "+V", NULL};
-    static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
-    static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
     for (int i = 0; !result && always[i]; i++)
         result = text_list_add(arguments, err, "%s", always[i]);
-    const char *const *format = pass->codes ? codes : radiance;
-    for (int i = 0; !result && format[i]; i++)
-        result = text_list_add(arguments, err, "%s", format[i]);
     if (!result && options->frames.digits > 0)
         result = text_list_add(arguments, err, "Subset_Start_Frame=%d", frame);
     if (!result && options->frames.digits > 0)
         result = text_list_add(arguments, err, "Subset_End_Frame=%d", frame);
+    return result;
+}
+
+/* The user's switches first, then those on which the pass depends: POV-Ray takes the last one. */
+static enum result job_arguments(const struct passes *passes, enum pass_id id, int frame, struct text_list *arguments,
+                                 struct error *err)
+{
+    const struct passes_options *options = passes->options;
+    const struct povray_switches *switches = options->switches;
+    const struct pass *pass = &pass_table[id];
+    static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
+    static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
+    enum result result = scene_arguments(passes, frame, arguments, err);
+    const char *const *format = pass->codes ? codes : radiance;
+    for (int i = 0; !result && format[i]; i++)
+        result = text_list_add(arguments, err, "%s", format[i]);
     if (!result && !pass->full_size)
         result = text_list_add(arguments, err, "-A");
     /* Reflectivities are small, and their edges show as much as those of the picture. */
@@ -197,28 +267,101 @@ static enum result report_failure(const struct passes *passes, const struct povr
     return RESULT_POVRAY;
 }
 
-/* The environment, but for the .ini file that POV-Ray reads by itself: the switches hold it. The caller frees it. */
-static enum result make_environment(char ***environment, struct error *err)
+/* The environment, but for the .ini file that POV-Ray reads by itself, which the switches hold, and with LD_PRELOAD where
+ * what is read is to be noted. */
+static enum result make_environment(struct passes *passes, struct error *err)
 {
     static char no_ini[] = "POVINI=../" EMPTY_INI;
     int count = 0, kept = 0;
     while (environ[count])
         count++;
-    *environment = calloc((size_t)count + 2, sizeof **environment);
-    if (!*environment)
-        return error_memory(err, (double)count * sizeof **environment);
+    char **environment = passes->environment = calloc((size_t)count + 3, sizeof *environment);
+    if (!environment)
+        return error_memory(err, (double)count * sizeof *environment);
     for (int i = 0; i < count; i++)
-        if (strncmp(environ[i], "POVINI=", 7))
-            (*environment)[kept++] = environ[i];
-    (*environment)[kept] = no_ini;
+        if (strncmp(environ[i], "POVINI=", 7) && !(passes->preload && !strncmp(environ[i], "LD_PRELOAD=", 11)))
+            environment[kept++] = environ[i];
+    environment[kept++] = no_ini;
+    environment[kept] = passes->preload;
     return RESULT_OK;
+}
+
+static enum result prepare_environment(struct passes *passes, struct error *err)
+{
+    enum result result = write_empty_ini(passes, err);
+    if (!result && passes->options->reads)
+        result = reads_begin(&passes->folder, err);
+    if (!result && passes->options->reads)
+        result = reads_variable(&passes->preload, err);
+    return result ? result : make_environment(passes, err);
+}
+
+static void no_progress(void *context, double done)
+{
+    (void)context;
+    (void)done;
+}
+
+/* POV-Ray parses the scene and is stopped by the wrapper before it draws: that is a success if the log has its last
+ * line. */
+static enum result run_discovery(struct passes *passes, const char *name, const char *folder, struct error *err)
+{
+    struct text_list arguments = {0};
+    char *path = NULL;
+    int failed = -1;
+    struct input_file log = {0};
+    struct error ignored;
+    enum result result = scene_arguments(passes, passes->frame, &arguments, err);
+    struct povray_job job = {.name = name, .folder = folder, .arguments = arguments.texts};
+    if (!result)
+        result = text_printf(&path, err, "%s/" SCENE_DISCOVERY_LOG, folder);
+    if (!result)
+        result = povray_run(&job, 1, 1, passes->environment, no_progress, NULL, &failed, err);
+    if (failed >= 0 && !input_file_read(path, &log, &ignored) && log.size >= 4 &&
+        !memcmp(log.data + log.size - 4, "end\n", 4))
+        result = RESULT_OK;
+    else if (failed >= 0)
+        result = report_failure(passes, &job, err);
+    input_file_free(&log);
+    povray_jobs_free(&job, 1);
+    text_list_free(&arguments);
+    free(path);
+    return result;
+}
+
+/* Finds the files that only POV-Ray knows; what is included by a new file is found in a further run. */
+static enum result discover(struct passes *passes, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (bool again = true; !result && again;) {
+        char name[32], *folder = NULL;
+        struct buffer text = {0};
+        snprintf(name, sizeof name, "discovery%d", ++passes->discoveries);
+        result = text_printf(&folder, err, "%s/%s", passes->folder.path, name);
+        if (!result)
+            result = work_folder_add(&passes->folder, name, err);
+        if (!result)
+            result = pass_discovery_text(&passes->scene, &text, err);
+        if (!result)
+            result = write_wrapper(passes, name, &text, err);
+        if (!result)
+            result = write_copy(passes, SCENE_COPY_DISCOVERY, err);
+        if (!result)
+            result = run_discovery(passes, name, folder, err);
+        if (!result)
+            result = scene_discover(&passes->scene, folder, (const char *const *)passes->directories.texts,
+                                    passes->directories.count, &again, err);
+        buffer_free(&text);
+        free(folder);
+    }
+    return result ? result : scene_settle(&passes->scene, err);
 }
 
 static enum result run_passes(struct passes *passes, int frame, struct error *err)
 {
     const struct passes_options *options = passes->options;
     struct text_list arguments[PASS_COUNT] = {0};
-    char *folders[PASS_COUNT] = {0}, **environment = NULL;
+    char *folders[PASS_COUNT] = {0};
     enum result result = RESULT_OK;
     for (int i = 0; !result && i < passes->job_count; i++) {
         result = job_arguments(passes, passes->ids[i], frame, &arguments[i], err);
@@ -227,11 +370,9 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
         passes->jobs[i] = (struct povray_job){
             .name = pass_table[passes->ids[i]].name, .folder = folders[i], .arguments = arguments[i].texts};
     }
-    if (!result)
-        result = make_environment(&environment, err);
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     if (!result)
-        result = povray_run(passes->jobs, passes->job_count, at_once, environment, options->progress,
+        result = povray_run(passes->jobs, passes->job_count, at_once, passes->environment, options->progress,
                             options->progress_context, &failed, err);
     if (failed >= 0)
         result = report_failure(passes, &passes->jobs[failed], err);
@@ -240,8 +381,15 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
         text_list_free(&arguments[i]);
         free(folders[i]);
     }
-    free(environment);
     return result;
+}
+
+static enum result collect_reads(struct passes *passes, struct error *err)
+{
+    const struct reads_places places = {.scene = &passes->scene,
+                                        .directories = &passes->directories,
+                                        .names = &passes->directory_names};
+    return reads_collect(&passes->folder, &places, &passes->reads, err);
 }
 
 static enum result check_scene(const struct passes *passes, struct error *note, struct error *err)
@@ -278,6 +426,29 @@ static enum result remove_images(const struct passes *passes, const struct pass_
     return result;
 }
 
+/* Reads the scene and writes those of the passes. */
+static enum result prepare(struct passes *passes, int frame, struct error *note, struct error *err)
+{
+    passes->frame = frame;
+    note->text[0] = 0;
+    enum result result = load_scene(passes, err);
+    if (!result && passes->scene.needs_discovery)
+        result = discover(passes, err);
+    if (!result)
+        result = check_scene(passes, note, err);
+    return result ? result : write_scenes(passes, err);
+}
+
+/* What POV-Ray computes may be something else in another frame. */
+static enum result prepare_frame(struct passes *passes, int frame, struct error *err)
+{
+    struct error ignored;
+    if (frame == passes->frame || !passes->scene.needs_discovery)
+        return RESULT_OK;
+    scene_free(&passes->scene);
+    return prepare(passes, frame, &ignored, err);
+}
+
 enum result passes_open(const struct passes_options *options, struct passes **opened, struct error *note,
                         struct error *err)
 {
@@ -287,16 +458,16 @@ enum result passes_open(const struct passes_options *options, struct passes **op
     if (!passes)
         return error_memory(err, sizeof *passes);
     passes->options = options;
-    note->text[0] = 0;
     enum result result = work_folder_make(&passes->folder, options->keep, err);
+    if (!result)
+        result = work_folder_add(&passes->folder, "copies", err);
     if (!result)
         result = find_directories(passes, err);
     if (!result)
-        result = scene_load(&passes->scene, options->scene, &options->gloss,
-                            (const char *const *)passes->directories.texts, passes->directories.count, err);
+        result = link_directories(passes, err);
     if (!result)
-        result = check_scene(passes, note, err);
-    return result ? result : write_scenes(passes, err);
+        result = prepare_environment(passes, err);
+    return result ? result : prepare(passes, options->frames.first, note, err);
 }
 
 enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
@@ -312,7 +483,11 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
                                        .subsample = options->subsample};
     *gbuffer = (struct gbuffer){0};
     note->text[0] = 0;
-    enum result result = run_passes(passes, frame, err);
+    enum result result = prepare_frame(passes, frame, err);
+    if (!result)
+        result = run_passes(passes, frame, err);
+    if (!result && options->reads)
+        result = collect_reads(passes, err);
     if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
     if (!result && !options->keep)
@@ -322,12 +497,19 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     return result;
 }
 
+enum result passes_reads(const struct passes *passes, struct buffer *files, struct error *err)
+{
+    return reads_list(&passes->reads, passes->options->scene, &passes->options->switches->ini_files, files, err);
+}
+
 void passes_close(struct passes *passes)
 {
     if (!passes)
         return;
-    scene_free(&passes->scene);
-    text_list_free(&passes->directories);
+    free_scene(passes);
+    reads_free(&passes->reads);
+    free(passes->environment);
+    free(passes->preload);
     work_folder_remove(&passes->folder);
     free(passes);
 }

@@ -15,7 +15,7 @@
 #include "gbuffer.h"
 #include "povray.h"
 #include "povray_switches.h"
-#include "scene_rewrite.h"
+#include "scene.h"
 
 struct passes_options {
     const char *scene;  /* path of the .pov file */
@@ -27,11 +27,16 @@ struct passes_options {
     int subsample;        /* 1; 2 or 4: specular, a and b are traced at every so-many-th pixel and interpolated; then the
                              switches say the size */
     int jobs;             /* POV-Ray processes at the same time; 0: two more than there are cores */
+    bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;
 };
 
 struct passes;
+
+/* Reads the scene as passes_open does, and runs nothing: it may need a discovery. The caller frees it, also after a
+ * failure. */
+MUST_CHECK enum result passes_load_scene(const struct passes_options *options, struct scene *scene, struct error *err);
 
 /* Reads the scene and writes the passes' scenes. RESULT_DATA for a scene that can't be taken (with file and line) or that
  * has nothing glossy. *note is a warning worth a line to the user, or empty. The options are not copied: they must outlive
@@ -43,6 +48,9 @@ MUST_CHECK enum result passes_open(const struct passes_options *options, struct 
  * the user's files. *note as above. No process is left. */
 MUST_CHECK enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
                                      struct error *err);
+
+/* Adds the files that POV-Ray and povgloss read for the frames that were rendered to *files, as reads_list does. */
+MUST_CHECK enum result passes_reads(const struct passes *passes, struct buffer *files, struct error *err);
 
 /* Leaves no folder but `keep`. NULL is allowed. */
 void passes_close(struct passes *passes);

@@ -156,7 +156,10 @@ static enum result take_ini(struct povray_switches *switches, const char *argume
     if (switches->depth == MAX_DEPTH)
         return error_set(err, RESULT_DATA, "%s: .ini files that read each other %d deep", argument, MAX_DEPTH);
     switches->depth++;
-    enum result result = ini_file_read(argument, take_line, switches, err);
+    enum result result =
+        text_list_add(&switches->ini_files, err, "%.*s", (int)ini_file_path_length(argument), argument);
+    if (!result)
+        result = ini_file_read(argument, take_line, switches, err);
     switches->depth--;
     return result;
 }
@@ -220,6 +223,7 @@ void povray_switches_free(struct povray_switches *switches)
 {
     text_list_free(&switches->passed);
     text_list_free(&switches->libraries);
+    text_list_free(&switches->ini_files);
     free(switches->scene);
     free(switches->file_scene);
     *switches = (struct povray_switches){0};

@@ -12,6 +12,7 @@
 struct povray_switches {
     struct text_list passed;    /* in their order, .ini files replaced by what they say */
     struct text_list libraries; /* folders of +L and Library_Path */
+    struct text_list ini_files; /* that were read, POV-Ray's own among them */
     char *scene;                /* +I or Input_File_Name on the command line; NULL: none */
     char *file_scene;           /* the same in .ini files */
     struct frames_options frames;

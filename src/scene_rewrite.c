@@ -1,26 +1,19 @@
-/* Reading: the files of a scene, and the facts that decide which passes it needs.
- * Rewriting: a table of rules for each kind of copy, and one walk over the tokens that copies the source and replaces
- * blocks.
+/* A table of rules for each kind of copy, and one walk over the tokens that copies the source and replaces blocks.
  *
  * The places of finishes, textures and lights are found by tokens; whether a finish is glossy is left to POV-Ray, through
  * the marks, since macros and conditions decide it.
  */
 #include "scene_rewrite.h"
 
-#include "gbuffer.h"
-#include "input_file.h"
-#include "lobe.h"
+#include "scene_discover.h"
+#include "scene_tokens.h"
 
-#include <assert.h>
 #include <ctype.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <unistd.h>
 
-enum { MAX_FILES = 1000, MAX_CONDITIONS = 256 };
+enum { MAX_CONDITIONS = 256 };
 
 /* What happens to statements that are allowed at the top level only. */
 enum statements {
@@ -41,6 +34,7 @@ struct rules {
     bool coded;           /* textures are taken off */
     bool covers;          /* it matters whether a pigment is transparent */
     bool technical;       /* linear working space, no photons, no radiosity */
+    bool discovery;       /* includes and assumed_gamma are written to the log */
 };
 
 static const struct rules copy_rules[SCENE_COPY_COUNT] = {
@@ -54,59 +48,8 @@ static const struct rules copy_rules[SCENE_COPY_COUNT] = {
                                   .technical = true},
     [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .in_union = true, .marks = true, .covers = true},
     [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .in_union = true, .coded = true, .covers = true, .technical = true},
+    [SCENE_COPY_DISCOVERY] = {"discovery", STATEMENTS_STAY, .lights = true, .discovery = true},
 };
-
-static bool in_list(const struct scene_file *file, int token, const char *const *words)
-{
-    for (; *words; words++)
-        if (token_is(&file->source, &file->list.tokens[token], TOKEN_WORD, *words))
-            return true;
-    return false;
-}
-
-static bool is_word(const struct scene_file *file, int token, const char *word)
-{
-    return token >= 0 && token < file->list.count &&
-           token_is(&file->source, &file->list.tokens[token], TOKEN_WORD, word);
-}
-
-static bool is_mark(const struct scene_file *file, int token, const char *mark)
-{
-    return token >= 0 && token < file->list.count &&
-           token_is(&file->source, &file->list.tokens[token], TOKEN_MARK, mark);
-}
-
-static bool is_directive(const struct scene_file *file, int token, const char *word)
-{
-    return token >= 0 && token_is(&file->source, &file->list.tokens[token], TOKEN_DIRECTIVE, word);
-}
-
-/* Directives that an #end closes. */
-static const char *const openers[] = {"if", "ifdef", "ifndef", "while", "for", "switch", "macro", NULL};
-
-static bool in_directives(const struct scene_file *file, int token, const char *const *words)
-{
-    for (; *words; words++)
-        if (is_directive(file, token, *words))
-            return true;
-    return false;
-}
-
-static double number_value(const struct scene_file *file, int token)
-{
-    return strtod(file->source.data + file->list.tokens[token].begin, NULL);
-}
-
-/* The token that says what kind of block an opening brace begins: `union {`, `function (x, y) {`, `function 9, 9 {`. */
-static int block_keyword(const struct scene_file *file, int brace)
-{
-    int token = brace - 1;
-    if (is_mark(file, token, ")") && file->list.tokens[token].match > 0)
-        token = file->list.tokens[token].match - 1;
-    while (token > 0 && (file->list.tokens[token].kind == TOKEN_NUMBER || is_mark(file, token, ",")))
-        token--;
-    return token;
-}
 
 static bool mentions(const struct scene_file *file, int first, int end, const char *const *words)
 {
@@ -125,496 +68,14 @@ static bool fills_array(const struct scene_file *file, int token)
     return false;
 }
 
-static bool inside(const struct scene_file *file, int token, const char *keyword)
-{
-    for (int brace = file->list.tokens[token].parent; brace >= 0; brace = file->list.tokens[brace].parent)
-        if (brace > 0 && is_word(file, block_keyword(file, brace), keyword))
-            return true;
-    return false;
-}
-
-static bool opens_block(const struct scene_file *file, int token)
-{
-    return is_mark(file, token + 1, "{") && file->list.tokens[token + 1].match > 0;
-}
-
-/* ---- reading ---- */
-
-static const char *base_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
-/* The index of the word at `token` in a list of names, or -1. */
-static int find_name(const struct buffer *names, const struct scene_file *file, int token)
-{
-    if (token < 0 || file->list.tokens[token].kind != TOKEN_WORD)
-        return -1;
-    const char *word = file->source.data + file->list.tokens[token].word;
-    size_t length = file->list.tokens[token].word_length;
-    int index = 0;
-    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1, index++)
-        if (strlen(names->data + at) == length && !memcmp(names->data + at, word, length))
-            return index;
-    return -1;
-}
-
-static enum result add_name(struct buffer *names, const struct scene_file *file, int token, struct error *err)
-{
-    if (find_name(names, file, token) >= 0)
-        return RESULT_OK;
-    enum result result = buffer_add(names, file->source.data + file->list.tokens[token].word,
-                                    file->list.tokens[token].word_length, err);
-    return result ? result : buffer_add(names, "", 1, err);
-}
-
-/* Notes that something is glossy with this exponent; negative: it is known to POV-Ray only. */
-static void note_exponent(struct scene *scene, double exponent)
-{
-    if (!scene->glossy)
-        scene->exponent = exponent;
-    else if (scene->exponent != exponent)
-        scene->exponent = -1;
-    scene->glossy = true;
-}
-
-/* Notes one call Gloss(p) or Gloss_Roughness(r) whose name is at `token`. */
-static void note_gloss(struct scene *scene, const struct scene_file *file, int token)
-{
-    double exponent = -1;
-    if (file->list.tokens[token + 2].kind == TOKEN_NUMBER && is_mark(file, token + 3, ")")) {
-        exponent = number_value(file, token + 2);
-        if (is_word(file, token, "Gloss_Roughness"))
-            exponent = lobe_phong_from_roughness(exponent);
-    }
-    note_exponent(scene, exponent);
-}
-
-static bool is_zero(const struct scene_file *file, int token)
-{
-    static const char *const operators[] = {"+", "-", "*", "/", NULL};
-    bool zero = file->list.tokens[token].kind == TOKEN_NUMBER && number_value(file, token) == 0;
-    for (int i = 0; zero && operators[i]; i++)
-        zero = !is_mark(file, token + 1, operators[i]);
-    return zero;
-}
-
-/* A `reflection` makes a plain mirror unless its finish is glossy or it is the number 0. */
-static bool is_plain_mirror(const struct scene_file *file, int token)
-{
-    int brace = file->list.tokens[token].parent;
-    if (brace > 0 && is_word(file, block_keyword(file, brace), "photons"))
-        return false;
-    bool zero = is_zero(file, token + 1);
-    if (brace <= 0 || !is_word(file, brace - 1, "finish") || file->list.tokens[brace].match < 0)
-        return !zero;
-    bool gloss = false, conditional = false;
-    for (int i = brace; i < file->list.tokens[brace].match; i++) {
-        gloss |= is_word(file, i, "Gloss") || is_word(file, i, "Gloss_Roughness");
-        conditional |= file->list.tokens[i].kind == TOKEN_DIRECTIVE;
-    }
-    return !zero && (!gloss || conditional);
-}
-
-/* The first assumed_gamma of a scene is the one that POV-Ray takes. */
-static enum result note_gamma(struct scene *scene, const struct scene_file *file, int token, struct error *err)
-{
-    const struct token *value = &file->list.tokens[token + 1];
-    double gamma;
-    if (is_word(file, token + 1, "srgb")) {
-        gamma = GBUFFER_GAMMA_SRGB;
-    } else if (value->kind == TOKEN_NUMBER && (value[1].kind == TOKEN_WORD || value[1].kind == TOKEN_DIRECTIVE ||
-                                               is_mark(file, token + 2, "}"))) {
-        gamma = number_value(file, token + 1);
-    } else {
-        return error_set(err, RESULT_DATA,
-                         "%s:%d: assumed_gamma must be a plain number or srgb, so that the passes can be recombined in "
-                         "the same space: write the number",
-                         file->path, file->list.tokens[token].line);
-    }
-    if (scene->working_gamma == 0)
-        scene->working_gamma = gamma;
-    return RESULT_OK;
-}
-
-static enum result load_file(struct scene *scene, char *path, const char *const *directories, int directory_count,
-                             struct error *err);
-
-/* The path of an include file, which the caller frees; *path is NULL when it isn't in any of the directories. */
-static enum result find_include(const char *name, const char *const *directories, int directory_count, char **path,
-                                struct error *err)
-{
-    *path = NULL;
-    for (int i = 0; i < directory_count; i++) {
-        enum result result = name[0] == '/' ? text_printf(path, err, "%s", name)
-                                            : text_printf(path, err, "%s/%s", directories[i], name);
-        if (result || access(*path, R_OK) == 0)
-            return result;
-        free(*path);
-        *path = NULL;
-    }
-    return RESULT_OK;
-}
-
-static enum result follow_include(struct scene *scene, int index, int token, const char *const *directories,
-                                  int directory_count, struct error *err)
-{
-    struct scene_file *file = &scene->files[index];
-    const struct token *name = &file->list.tokens[token];
-    if (name->kind != TOKEN_STRING || is_mark(file, token + 1, "+"))
-        return error_set(err, RESULT_DATA,
-                         "%s:%d: an #include by a computed name can't be followed: write the file's name in quotes",
-                         file->path, name->line);
-    char *literal = strndup(file->source.data + name->begin + 1, name->end - name->begin - 2), *path = NULL;
-    if (!literal)
-        return error_memory(err, (double)(name->end - name->begin));
-    enum result result = find_include(literal, directories, directory_count, &path, err);
-    free(literal);
-    if (result || !path)
-        return result;
-    int target = 0;
-    while (target < scene->file_count && strcmp(scene->files[target].path, path))
-        target++;
-    if (target == scene->file_count)
-        result = load_file(scene, path, directories, directory_count, err);
-    else
-        free(path);
-    if (result)
-        return result;
-    file = &scene->files[index];
-    struct scene_include *includes =
-        realloc(file->includes, ((size_t)file->include_count + 1) * sizeof *file->includes);
-    if (!includes)
-        return error_memory(err, sizeof *file->includes);
-    includes[file->include_count++] = (struct scene_include){.token = token, .file = target};
-    file->includes = includes;
-    return RESULT_OK;
-}
-
-/* The name that the directive at `token` declares, or -1: `#declare deprecated once "message" X`, `#macro X`. */
-static int declared_name(const struct scene_file *file, int token)
-{
-    if (is_directive(file, token, "macro"))
-        return token + 1;
-    if (!is_directive(file, token, "declare") && !is_directive(file, token, "local"))
-        return -1;
-    token++;
-    if (is_word(file, token, "deprecated")) {
-        token += 1 + is_word(file, token + 1, "once");
-        token += file->list.tokens[token].kind == TOKEN_STRING;
-    }
-    return token;
-}
-
-/* `X = array[2] { finish {...}, ... }`, at X. */
-static bool is_filled_array(const struct scene_file *file, int name)
-{
-    if (!is_mark(file, name + 1, "=") || !is_word(file, name + 2, "array"))
-        return false;
-    int token = name + 3;
-    while (is_mark(file, token, "[") || is_mark(file, token, "]") || file->list.tokens[token].kind == TOKEN_NUMBER)
-        token++;
-    return is_mark(file, token, "{");
-}
-
-/* `X = texture {...} texture {...}`, at X. */
-static bool is_layered(const struct scene_file *file, int name)
-{
-    return is_mark(file, name + 1, "=") && is_word(file, name + 2, "texture") && opens_block(file, name + 2) &&
-           is_word(file, file->list.tokens[name + 3].match + 1, "texture");
-}
-
-/* What may follow the = of a name that can be made glossy. */
-static const char *const glossy_words[] = {"finish", "texture", "material", NULL};
-
-static const char *const mixing_words[] = {"texture_map", "average", "blob", "texture_list", "smooth_triangle", NULL};
-
-/* The items of a finish whose values are the lobe of a highlight. */
-static const char *const highlight_words[] = {"phong_size", "roughness", NULL};
-
-static enum result note_token(struct scene *scene, int index, int token, struct error *err)
-{
-    const struct scene_file *file = &scene->files[index];
-    const struct token *tokens = file->list.tokens;
-    int name = declared_name(file, token);
-    if (name > 0 && tokens[name].kind == TOKEN_WORD) {
-        bool value = is_mark(file, name + 1, "=");
-        enum result result = add_name(&scene->names, file, name, err);
-        if (!result && value && is_word(file, name + 2, "light_source"))
-            result = add_name(&scene->lights, file, name, err);
-        if (!result && is_filled_array(file, name))
-            result = add_name(&scene->arrays, file, name, err);
-        if (!result && is_layered(file, name))
-            result = add_name(&scene->layered, file, name, err);
-        if (!result && value && in_list(file, name + 2, glossy_words))
-            result = add_name(&scene->glossable, file, name, err);
-        return result;
-    }
-    if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
-        scene->plain_mirrors = true;
-    if (in_list(file, token, highlight_words))
-        scene->highlights = true;
-    if (in_list(file, token, mixing_words))
-        scene->mixes = true;
-    if (is_word(file, token, "aperture"))
-        scene->focal_blur = true;
-    if (is_word(file, token, "assumed_gamma"))
-        return note_gamma(scene, file, token, err);
-    bool own = !strcmp(base_name(file->path), "povgloss.inc");
-    if (!own && (is_word(file, token, "Gloss") || is_word(file, token, "Gloss_Roughness")) &&
-        is_mark(file, token + 1, "(") && !is_directive(file, token - 1, "macro"))
-        note_gloss(scene, file, token);
-    static const char *const atmospheres[] = {"fog", "rainbow", "media"};
-    for (size_t i = 0; i < sizeof atmospheres / sizeof *atmospheres; i++)
-        if (is_word(file, token, atmospheres[i]) && tokens[token].parent < 0 && opens_block(file, token) &&
-            !is_mark(file, token - 1, "="))
-            scene->atmosphere = atmospheres[i];
-    return RESULT_OK;
-}
-
-/* Takes `path` over. */
-static enum result load_file(struct scene *scene, char *path, const char *const *directories, int directory_count,
-                             struct error *err)
-{
-    enum result result = RESULT_OK;
-    struct scene_file *files = realloc(scene->files, ((size_t)scene->file_count + 1) * sizeof *files);
-    if (!files || scene->file_count >= MAX_FILES) {
-        result = files ? error_set(err, RESULT_DATA, "%s: the scene has more than %d files", path, MAX_FILES)
-                       : error_memory(err, sizeof *files);
-        scene->files = files ? files : scene->files;
-        free(path);
-        return result;
-    }
-    scene->files = files;
-    int index = scene->file_count++;
-    files[index] = (struct scene_file){.path = path};
-    struct input_file input;
-    result = input_file_read(path, &input, err);
-    if (!result)
-        result = buffer_add(&files[index].source, input.data, input.size, err);
-    input_file_free(&input);
-    if (!result)
-        result = scene_lex(path, &files[index].source, &files[index].list, err);
-    for (int token = 0; !result && token < scene->files[index].list.count; token++) {
-        result = note_token(scene, index, token, err);
-        if (!result && is_directive(&scene->files[index], token, "include"))
-            result = follow_include(scene, index, token + 1, directories, directory_count, err);
-    }
-    return result;
-}
-
-/* The token after the value that begins at `token`; of the operators in it, the four of arithmetic are followed. */
-static int value_end(const struct scene_file *file, int token)
-{
-    for (;;) {
-        while (is_mark(file, token, "+") || is_mark(file, token, "-"))
-            token++;
-        if (is_mark(file, token, "<"))
-            while (token < file->list.count - 1 && !is_mark(file, token, ">"))
-                token++;
-        else if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
-            token = file->list.tokens[token].match;
-        else if (file->list.tokens[token].kind != TOKEN_NUMBER && file->list.tokens[token].kind != TOKEN_WORD)
-            return token;
-        token++;
-        for (;;) {
-            if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
-                token = file->list.tokens[token].match + 1;
-            else if (is_mark(file, token, "["))
-                while (token < file->list.count - 1 && !is_mark(file, token++, "]"))
-                    ;
-            else if (is_mark(file, token, "."))
-                token += 2;
-            else
-                break;
-        }
-        if (!is_mark(file, token, "+") && !is_mark(file, token, "-") && !is_mark(file, token, "*") &&
-            !is_mark(file, token, "/"))
-            return token;
-        token++;
-    }
-}
-
-/* ---- what may be transparent ---- */
-
-static const char *const clear_words[] = {"rgbt",   "rgbf",     "rgbft",  "srgbt",     "srgbf",
-                                          "srgbft", "transmit", "filter", "image_map", NULL};
-
-/* Whether the token names a transparent colour, an image, or something that was declared with one. */
-static bool names_clear(const struct scene *scene, const struct scene_file *file, int token)
-{
-    return in_list(file, token, clear_words) || find_name(&scene->clear, file, token) >= 0;
-}
-
-static enum result count_clear(struct scene *scene, struct error *err)
-{
-    for (int i = 0; i < scene->file_count; i++) {
-        struct scene_file *file = &scene->files[i];
-        size_t size = ((size_t)file->list.count + 1) * sizeof *file->clear;
-        file->clear = calloc(1, size);
-        if (!file->clear)
-            return error_memory(err, (double)size);
-        for (int token = 0; token < file->list.count; token++)
-            file->clear[token + 1] = file->clear[token] + (names_clear(scene, file, token) ||
-                                                            find_name(&scene->parameters, file, token) >= 0);
-    }
-    return RESULT_OK;
-}
-
-static bool may_be_clear(const struct scene_file *file, int first, int last)
-{
-    return last >= first && file->clear[last + 1] > file->clear[first];
-}
-
-/* The last token of the value that is declared from `token` on, roughly: never too early. */
-static int last_of_value(const struct scene_file *file, int token)
-{
-    while (token < file->list.count - 1 && file->list.tokens[token].kind != TOKEN_DIRECTIVE && !is_mark(file, token, ";")) {
-        int match = is_mark(file, token, "{") ? file->list.tokens[token].match : -1;
-        if (match > 0 && !is_word(file, match + 1, "texture"))
-            return match;
-        token = match > 0 ? match + 1 : token + 1;
-    }
-    return token;
-}
-
-/* The #end of the #macro at `token`. */
-static int end_of_macro(const struct scene_file *file, int token)
-{
-    int depth = 0;
-    for (; token < file->list.count - 1; token++) {
-        if (file->list.tokens[token].kind != TOKEN_DIRECTIVE)
-            continue;
-        depth += in_directives(file, token, openers);
-        depth -= is_directive(file, token, "end");
-        if (depth <= 0)
-            break;
-    }
-    return token;
-}
-
-static enum result note_parameters(struct scene *scene, const struct scene_file *file, int name, struct error *err)
-{
-    enum result result = RESULT_OK;
-    int last = is_mark(file, name + 1, "(") ? file->list.tokens[name + 1].match : -1;
-    for (int token = name + 2; !result && token < last; token++)
-        if (file->list.tokens[token].kind == TOKEN_WORD)
-            result = add_name(&scene->parameters, file, token, err);
-    return result;
-}
-
-/* Notes whether the name that the directive at `token` declares may be transparent: what a parameter of a macro gives to it
- * is as unknown as the parameter. */
-static enum result note_clear_name(struct scene *scene, const struct scene_file *file, int token, struct error *err)
-{
-    bool macro = is_directive(file, token, "macro"), clear = false, unknown = false;
-    int name = declared_name(file, token);
-    if (name < 0 || file->list.tokens[name].kind != TOKEN_WORD)
-        return RESULT_OK;
-    enum result result = macro ? note_parameters(scene, file, name, err) : RESULT_OK;
-    int last = macro ? end_of_macro(file, token) : last_of_value(file, name + 1);
-    for (int word = name + 1; word <= last; word++) {
-        clear |= names_clear(scene, file, word);
-        unknown |= !macro && find_name(&scene->parameters, file, word) >= 0;
-    }
-    if (!result && clear)
-        result = add_name(&scene->clear, file, name, err);
-    if (!result && unknown)
-        result = add_name(&scene->parameters, file, name, err);
-    return result;
-}
-
-/* Finds the names through which a pigment may be transparent: those declared with a transparent colour or an image, or with
- * such a name, until none is added. */
-static enum result note_clear_names(struct scene *scene, struct error *err)
-{
-    enum result result = RESULT_OK;
-    size_t before;
-    do {
-        before = scene->clear.size + scene->parameters.size;
-        for (int i = 0; i < scene->file_count; i++)
-            for (int token = 0; !result && token < scene->files[i].list.count - 1; token++)
-                result = note_clear_name(scene, &scene->files[i], token, err);
-    } while (!result && scene->clear.size + scene->parameters.size != before);
-    return result;
-}
-
-static bool has_name(const struct buffer *names, const char *name)
-{
-    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1)
-        if (!strcmp(names->data + at, name))
-            return true;
-    return false;
-}
-
-/* Notes what the user chose to be glossy. */
-static enum result note_choice(struct scene *scene, const struct gloss_choice *choice, struct error *err)
-{
-    for (int i = 0; i < choice->name_count; i++) {
-        if (!has_name(&scene->glossable, choice->names[i].name))
-            return error_set(err, RESULT_DATA,
-                             "%s: no finish, texture or material is declared by the name %s: `povgloss list` shows those "
-                             "that reflect",
-                             scene->files[0].path, choice->names[i].name);
-        note_exponent(scene, choice->names[i].exponent);
-    }
-    if (scene->plain_mirrors && choice->all)
-        note_exponent(scene, choice->all_exponent);
-    if (scene->plain_mirrors && choice->automatic && scene->highlights)
-        note_exponent(scene, -1);
-    return RESULT_OK;
-}
-
-enum result scene_load(struct scene *scene, const char *path, const struct gloss_choice *choice,
-                       const char *const *directories, int directory_count, struct error *err)
-{
-    *scene = (struct scene){.choice = choice, .exponent = -1};
-    char *copy = strdup(path);
-    if (!copy)
-        return error_memory(err, (double)strlen(path));
-    enum result result = load_file(scene, copy, directories, directory_count, err);
-    if (result)
-        return result;
-    const struct scene_file *main_file = &scene->files[0];
-    if (is_directive(main_file, 0, "version") && main_file->list.tokens[1].kind == TOKEN_NUMBER)
-        scene->version = number_value(main_file, 1);
-    if (scene->working_gamma == 0)
-        scene->working_gamma = scene->version >= 3.7 ? 1 : GBUFFER_GAMMA_SRGB;
-    result = note_clear_names(scene, err);
-    if (!result)
-        result = count_clear(scene, err);
-    return result ? result : note_choice(scene, choice, err);
-}
-
-void scene_free(struct scene *scene)
-{
-    for (int i = 0; i < scene->file_count; i++) {
-        free(scene->files[i].path);
-        free(scene->files[i].includes);
-        buffer_free(&scene->files[i].source);
-        token_list_free(&scene->files[i].list);
-        free(scene->files[i].clear);
-    }
-    free(scene->files);
-    buffer_free(&scene->names);
-    buffer_free(&scene->lights);
-    buffer_free(&scene->arrays);
-    buffer_free(&scene->layered);
-    buffer_free(&scene->glossable);
-    buffer_free(&scene->clear);
-    buffer_free(&scene->parameters);
-    *scene = (struct scene){0};
-}
-
-/* ---- rewriting ---- */
-
 struct writer {
     const struct scene *scene;
     const struct scene_file *file;
     const struct rules *rules;
     enum scene_copy copy;
     size_t at;       /* the source up to here is written */
+    int local;       /* the next #local to be written as #declare, and what is around it */
+    struct nesting nesting;
     int value_name;  /* the name in the last #declare of a block */
     int value_end;   /* the token after that block: a texture there is a further layer */
     int end;         /* the token where the block ends that is being written; branches of a conditional may open it, too */
@@ -626,11 +87,32 @@ struct writer {
     struct buffer out;
 };
 
+/* A #local of the scene outside macros is one of the top level, and global; in a copy, which is included, it would not
+ * be. */
+static bool is_global_local(const struct writer *writer)
+{
+    return writer->file == writer->scene->files && is_directive(writer->file, writer->local, "local") &&
+           !writer->nesting.macro;
+}
+
 static enum result copy_to(struct writer *writer, size_t end, struct error *err)
 {
-    if (end <= writer->at)
-        return RESULT_OK;
-    enum result result = buffer_add(&writer->out, writer->file->source.data + writer->at, end - writer->at, err);
+    const struct token *tokens = writer->file->list.tokens;
+    const char *source = writer->file->source.data;
+    enum result result = RESULT_OK;
+    for (; !result && writer->local < writer->file->list.count && tokens[writer->local].begin < end; writer->local++) {
+        nest(&writer->nesting, writer->file, writer->local);
+        const struct token *local = &tokens[writer->local];
+        if (local->begin < writer->at || !is_global_local(writer))
+            continue;
+        result = buffer_add(&writer->out, source + writer->at, local->begin - writer->at, err);
+        if (!result)
+            result = buffer_add_text(&writer->out, "#declare", err);
+        writer->at = local->end;
+    }
+    if (result || end <= writer->at)
+        return result;
+    result = buffer_add(&writer->out, source + writer->at, end - writer->at, err);
     writer->at = end;
     return result;
 }
@@ -715,6 +197,31 @@ static enum result replace_block(struct writer *writer, int token, int last, con
     return result ? result : buffer_add_text(&writer->out, text, err);
 }
 
+/* In global_settings of a discovery copy: every assumed_gamma goes to the log. */
+static enum result write_gamma_log(struct writer *writer, int first, int end, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int i = first; !result && i < end; i++) {
+        if (!is_word(writer->file, i, "assumed_gamma"))
+            continue;
+        int file = (int)(writer->file - writer->scene->files);
+        if (is_word(writer->file, i + 1, "srgb")) {
+            result = insert_before(writer, i, "", err);
+            if (!result)
+                result = buffer_printf(&writer->out, err, SCENE_DISCOVERY_WRITE("\"gamma %d %d srgb\""), file, i);
+            continue;
+        }
+        result = replace(writer, i, i, "#declare povgloss_gamma =", err);
+        if (!result)
+            result = insert_after(writer, value_end(writer->file, i + 1) - 1, "; ", err);
+        if (!result)
+            result = buffer_printf(&writer->out, err,
+                                   SCENE_DISCOVERY_WRITE("\"gamma %d %d \", str(povgloss_gamma, 0, 9)")
+                                   "assumed_gamma povgloss_gamma ", file, i);
+    }
+    return result;
+}
+
 /* camera, global_settings, background ... : statements that no union may contain. */
 static enum result write_statement(struct writer *writer, int token, int last, struct error *err)
 {
@@ -727,6 +234,8 @@ static enum result write_statement(struct writer *writer, int token, int last, s
         result = insert_before(writer, token, "povgloss_modifiers() } ", err);
     if (!result && settings && writer->rules->technical)
         result = write_technical_settings(writer, token + 2, last, err);
+    if (!result && settings && writer->rules->discovery)
+        result = write_gamma_log(writer, token + 2, last, err);
     if (!result && camera && writer->scene->focal_blur)
         result = insert_before(writer, last, " povgloss_camera() ", err);
     if (!result && statements != STATEMENTS_STAY)
@@ -1214,7 +723,7 @@ static enum result write_finish_item(struct writer *writer, int token, int *next
 
 static void track_directive(struct writer *writer, int token)
 {
-    if (in_directives(writer->file, token, openers) && writer->conditions < MAX_CONDITIONS)
+    if (opens_nesting(writer->file, token) && writer->conditions < MAX_CONDITIONS)
         writer->is_macro[writer->conditions++] = is_directive(writer->file, token, "macro");
     if (is_directive(writer->file, token, "end") && writer->conditions > 0)
         writer->conditions--;
@@ -1223,13 +732,44 @@ static void track_directive(struct writer *writer, int token)
         writer->in_macro |= writer->is_macro[i];
 }
 
+/* `#include EXPRESSION` becomes `#declare povgloss_name = EXPRESSION; ... #include povgloss_name`, and in between the
+ * names of the files that were found become those of their copies. */
+static enum result write_unknown_include(struct writer *writer, const struct scene_include *include, struct error *err)
+{
+    const struct scene *scene = writer->scene;
+    enum result result = replace(writer, include->token - 1, include->token - 1, "#declare povgloss_name =", err);
+    if (!result)
+        result = insert_after(writer, include->end - 1, "; ", err);
+    if (!result && writer->rules->discovery)
+        result = buffer_printf(&writer->out, err, SCENE_DISCOVERY_WRITE("\"include %d %d \", povgloss_name"),
+                               (int)(writer->file - scene->files), include->token);
+    for (int i = 0; !result && i < scene->found_count; i++) {
+        char *copy = NULL;
+        if (scene->found[i].file < 0)
+            continue;
+        result = scene_copy_name(scene, writer->copy, scene->found[i].file, &copy, err);
+        if (!result)
+            result = buffer_add_text(&writer->out, "#if (strcmp(povgloss_name, \"", err);
+        for (const char *c = scene->found[i].name; !result && *c; c++)
+            result = buffer_printf(&writer->out, err, "%s%c", *c == '"' || *c == '\\' ? "\\" : "", *c);
+        if (!result)
+            result = buffer_printf(&writer->out, err, "\") = 0) #declare povgloss_name = \"%s\"; #end ", copy);
+        free(copy);
+    }
+    return result ? result : buffer_add_text(&writer->out, "#include povgloss_name", err);
+}
+
 static enum result write_include(struct writer *writer, int token, struct error *err)
 {
     for (int i = 0; i < writer->file->include_count; i++) {
-        if (writer->file->includes[i].token != token)
+        const struct scene_include *include = &writer->file->includes[i];
+        if (include->token != token)
             continue;
+        if (include->file < 0)
+            return writer->rules->discovery || writer->scene->found_count ? write_unknown_include(writer, include, err)
+                                                                          : RESULT_OK;
         char *name = NULL, *quoted = NULL;
-        enum result result = scene_copy_name(writer->scene, writer->copy, writer->file->includes[i].file, &name, err);
+        enum result result = scene_copy_name(writer->scene, writer->copy, include->file, &name, err);
         if (!result)
             result = text_printf(&quoted, err, "\"%s\"", name);
         if (!result)
@@ -1257,6 +797,21 @@ static enum result write_default(struct writer *writer, int token, int *next, st
     return result || !breaks ? result : insert_after(writer, last, " union { povgloss_nothing()", err);
 }
 
+/* Of a discovery copy: the name in `#fopen X NAME write` goes to the log. */
+static enum result write_opening_log(struct writer *writer, int token, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int name = token + 2, end = name < file->list.count ? string_end(file, name) : name;
+    if (end == name || is_word(file, end, "read"))
+        return RESULT_OK;
+    size_t begin = file->list.tokens[name].begin;
+    enum result result = insert_before(writer, token, "", err);
+    return result ? result
+                  : buffer_printf(&writer->out, err, SCENE_DISCOVERY_WRITE("\"write %d %d \", %.*s"),
+                                  (int)(file - writer->scene->files), name,
+                                  (int)(file->list.tokens[end - 1].end - begin), file->source.data + begin);
+}
+
 static enum result write_tokens(struct writer *writer, int first, int end, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -1271,6 +826,8 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
                 result = copy_state(writer, i, err);
             if (!result && is_directive(file, i, "include"))
                 result = write_include(writer, i + 1, err);
+            else if (!result && is_directive(file, i, "fopen") && writer->rules->discovery)
+                result = write_opening_log(writer, i, err);
             else if (!result && is_directive(file, i, "default") && opens_block(file, i))
                 result = write_default(writer, i, &next, err);
         } else if (file->list.tokens[i].kind == TOKEN_WORD) {

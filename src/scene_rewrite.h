@@ -1,4 +1,4 @@
-/* A POV-Ray scene with its include files, and the copies of it that the passes render.
+/* The copies of a POV-Ray scene that the passes render.
  *
  * A copy is the user's text with some blocks replaced, line by line where it was, so that a message of POV-Ray about a
  * copy names the line of the user's own file. What replaces them refers to names that the pass's wrapper declares
@@ -9,44 +9,7 @@
 #ifndef POVGLOSS_SCENE_REWRITE_H
 #define POVGLOSS_SCENE_REWRITE_H
 
-#include "gloss_choice.h"
-#include "scene_lexer.h"
-
-struct scene_include {
-    int token; /* the string of the #include */
-    int file;  /* index of the file it names */
-};
-
-struct scene_file {
-    char *path; /* as the user knows it */
-    struct buffer source;
-    struct token_list list;
-    int *clear; /* for each token, how many before it name something that may be transparent */
-    struct scene_include *includes;
-    int include_count;
-};
-
-struct scene {
-    const struct gloss_choice *choice;
-    struct scene_file *files; /* the first one is the scene */
-    int file_count;
-    struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
-    struct buffer lights;  /* in the same form: names that were declared as a light_source, */
-    struct buffer arrays;  /* as an array filled in its declaration, */
-    struct buffer layered; /* as a texture of several layers, */
-    struct buffer glossable; /* as a finish, texture or material, */
-    struct buffer clear;     /* as something that may be transparent, */
-    struct buffer parameters; /* as a parameter of a macro, which may be anything, or with one */
-    bool glossy;           /* some finish may be glossy, by Gloss or Gloss_Roughness or by the user's choice */
-    double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
-    bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
-    bool mixes;            /* some texture may mix others: a map, an average, a blob, a mesh with a texture at each corner */
-    bool highlights;       /* some finish names the size of a highlight */
-    double version;        /* of a #version that opens the scene; 0: none */
-    double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
-    bool focal_blur;        /* some camera has an aperture */
-    const char *atmosphere; /* "fog", "rainbow" or "media" where the scene has one at top level, else NULL */
-};
+#include "scene.h"
 
 enum scene_copy {
     SCENE_COPY_PLAIN,       /* the scene itself, inside a union */
@@ -57,16 +20,9 @@ enum scene_copy {
     SCENE_COPY_MIRROR_SECOND, /* the same without camera and global settings */
     SCENE_COPY_REFLECTANCE, /* colours made opaque, finishes marked, inside a union, with the camera */
     SCENE_COPY_CODED,       /* no textures at all: everything inherits that of the union around; with the camera */
+    SCENE_COPY_DISCOVERY,   /* the scene itself; writes what it includes and its assumed_gamma to SCENE_DISCOVERY_LOG */
     SCENE_COPY_COUNT,
 };
-
-/* Reads the scene and every file it includes by a literal name; `choice` is kept. An include file is looked for in `directories`, in their
- * order; one that isn't found stays as it is, for POV-Ray to look for. The caller frees the scene, also after a failure.
- * RESULT_DATA, with file and line, for what can't be taken: an #include or an assumed_gamma that is not a literal; also
- * for a chosen name that nothing glossy could have. */
-MUST_CHECK enum result scene_load(struct scene *scene, const char *path, const struct gloss_choice *choice,
-                                  const char *const *directories, int directory_count, struct error *err);
-void scene_free(struct scene *scene);
 
 /* Writes one copy of all files into the folder. RESULT_DATA, with file and line, for a construct that can't be taken. */
 MUST_CHECK enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, const char *folder,

@@ -62,7 +62,7 @@ tells_version() {
 
 filter_options=(--phong --roughness --mode --weights --formula --window --energy --max-angle --max-radius --radius-step
     --threads --isa --format --bits)
-own_options=(-o --from-scene --resume --subsample --jobs --keep --povray)
+own_options=(--depfile -o --from-scene --resume --subsample --jobs --keep --povray)
 check "povgloss --help names every option" \
     helps povgloss "${own_options[@]}" "${filter_options[@]}" --layers -q --quiet --help --version
 check "glossfilter --help names every option" \

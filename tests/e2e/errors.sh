@@ -114,12 +114,25 @@ camera { location -z*5 look_at 0 }
 sphere { 0, 1 pigment { rgb 1 } finish { reflection 0.3 } }
 POV
 check "an empty scene" render_fails 3 "Gloss(300)" scenes/empty.pov < /dev/null
-check "an assumed_gamma that isn't written out" render_fails 3 "scenes/gamma.pov:2: assumed_gamma" scenes/gamma.pov < <(
-    printf '#declare G = 1.0;\nglobal_settings { assumed_gamma G }\n'
+check "an assumed_gamma by an expression that isn't one" render_fails 4 "scenes/gamma.pov' line 2" scenes/gamma.pov < <(
+    printf '#declare H = 1.0;\nglobal_settings { assumed_gamma G }\n'
 )
-check "an #include by a computed name" render_fails 3 "scenes/computed.pov:7: an #include" scenes/computed.pov < <(
+check "an assumed_gamma below 0" render_fails 4 "scenes/gamma.pov' line 2" scenes/gamma.pov < <(
+    printf '#declare G = -1;\nglobal_settings { assumed_gamma G }\n'
+)
+check "a parse error in an include by a computed name" \
+    render_fails 4 "parts/wrong.inc' line 5: Parse Error" scenes/computed.pov < <(
     cat head.txt
     printf '#include concat("parts/", "wrong.inc")\n'
+)
+check "an include by a computed name that is nowhere" render_fails 4 "scenes/computed.pov' line 7" scenes/computed.pov < <(
+    cat head.txt
+    printf '#include concat("no-such-file", ".inc")\n'
+)
+check "a file with objects that the scene writes twice" render_fails 3 "scenes/twice.pov:10: own.inc" scenes/twice.pov < <(
+    cat head.txt
+    printf '#for (I, 0, 1)\n#fopen File "own.inc" write #write (File, "sphere { ", I, ", 1 finish { F } }")\n#fclose File\n'
+    printf '#include "own.inc"\n#end\n'
 )
 
 warns() {

@@ -287,6 +287,106 @@ background { rgb <0.3, 0.5, 0.7> }
 object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
 POV
 
+# ---- what only POV-Ray knows: names of includes and the working space
+
+mkdir "$folder/parts" "$folder/parts/deep"
+cat > "$folder/parts/ball1.inc" << 'POV'
+#include concat("parts/deep/", "floor.inc")
+object { Ball translate x*0.7 pigment { rgb <0.2, 0.3, 0.9> } finish { reflection 0.4 Gloss(100) } }
+POV
+sed 's/x\*0.7/x*(-1.2)/; s/Gloss(100)//' "$folder/parts/ball1.inc" > "$folder/parts/ball2.inc"
+echo 'object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(50) } }' > "$folder/parts/deep/floor.inc"
+scene "includes by computed names, one in another" << 'POV'
+#macro Never(Name) #include Undeclared #end
+#for (I, 1, 2) #include concat("parts/ball", str(I, 0, 0), ".inc") #end
+POV
+scene "includes by absolute names and by names with dots" << POV
+#declare Part = "$folder/parts/deep/floor.inc"
+#include Part
+#declare Part = "parts/../parts/deep/../ball1.inc"
+#macro Include(Which, Name) #if (Which) #include Name #end #end
+Include(no, "none.inc")
+Include(yes, Part)
+POV
+scene "an include on the right of #declare" << 'POV'
+#declare Name = array[1] { "parts/ball1.inc" }
+#declare Both = union { #include Name[0] }
+object { Both }
+POV
+echo '#declare Glass = pigment { rgbt <0.9, 1, 0.9, 0.7> }' > "$folder/parts/glass.inc"
+scene "a transparent pigment from an include by a computed name" << 'POV'
+#include concat("parts/", "glass.inc")
+object { Ball translate -z pigment { Glass } }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "a file that the scene writes and includes" << 'POV'
+#fopen F "own file.inc" write
+#write (F, "object { Ball pigment { rgb 0.2 } finish { reflection 0.4 Gloss(60) } }\n")
+#fclose F
+#include "own file.inc"
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+echo 'sphere { 0, 3 }' > "$folder/older.inc"
+scene "an older file of the name that the scene writes" << 'POV'
+#fopen F "older.inc" write
+#write (F, "object { Ball pigment { rgb 0.2 } finish { reflection 0.4 Gloss(60) } }\n")
+#fclose F
+#include "older.inc"
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "strings that are parsed (strings.inc)" << 'POV'
+#include "strings.inc"
+#declare Grey = 0.2;
+#declare Bright = 0.7;
+object { Ball pigment { rgb Parse_String("Grey") } finish { reflection 0.4 Gloss(60) } }
+object { Floor pigment { rgb Parse_String("Bright*0.5") } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "a file that is written once, if it isn't there, and included again and again" << 'POV'
+#macro Part(Name, Where)
+  #if (!file_exists(Name))
+    #fopen F concat(Name) write
+    #write (F, "#declare Part_Object = object { Ball scale 0.6 pigment { rgb 0.2 } finish { reflection 0.4 Gloss(60) } }\n")
+    #fclose F
+  #end
+  #include Name
+  object { Part_Object translate Where }
+#end
+Part("part-1.inc", -1.5*x)
+Part("part-1.inc", 0)
+Part("part-2.inc", 1.5*x)
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "meshes by meshmaker.inc, which may be read from files" << 'POV'
+#include "meshmaker.inc"
+#declare Fx = function (u, v) { u }
+#declare Fy = function (u, v) { 0.6 + 0.3*sin(3*u)*cos(3*v) }
+#declare Fz = function (u, v) { v }
+object { Parametric(Fx, Fy, Fz, <-1, -1>, <1, 1>, 12, 12, "") pigment { rgb 0.2 } finish { reflection 0.3 Gloss(80) } }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+whole_scene "assumed_gamma by an expression" << 'POV'
+#version 3.7;
+#declare Display = 2.2;
+global_settings { assumed_gamma (Display - 0.2)*1.1 max_trace_level 6 }
+#include "stage.inc"
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+whole_scene "the second assumed_gamma counts: the first is never reached" << 'POV'
+#version 3.7;
+#macro Settings(Value) global_settings { assumed_gamma Value } #end
+#if (no) global_settings { assumed_gamma 1.0 } #else global_settings { assumed_gamma srgb } #end
+#include "stage.inc"
+object { Floor pigment { rgb 0.3 } finish { reflection { 0.2, 0.7 } Gloss(100) } }
+POV
+scene "#local in the scene itself" << 'POV'
+#declare I = 0;
+#while (I < 3)
+  object { Ball scale 0.5 translate x*(I - 1) pigment { rgb 0.2 + 0.3*I } finish { reflection 0.4 Gloss(60) } }
+  #local I = I + 1;
+#end
+object { Floor pigment { rgb 0.1*I } finish { reflection 0.5 Gloss(100) } }
+POV
+
 # ---- sizes and places
 
 for scale in 1e-3 1e5; do

@@ -6,6 +6,7 @@
 
 #include "gbuffer.h"
 #include "io_support.h"
+#include "scene_discover.h"
 
 /* What --gloss says in the tests; nothing unless a test sets it. */
 static struct gloss_choice chosen;
@@ -22,11 +23,18 @@ static void write_text(const char *name, const char *text)
     write_bytes(in_scratch(name), text, strlen(text));
 }
 
+/* POV-Ray isn't asked for what only it knows. */
+static enum result settle(struct scene *scene, struct error *err)
+{
+    return scene->needs_discovery ? scene_settle(scene, err) : RESULT_OK;
+}
+
 static void load_text(struct scene *scene, const char *text)
 {
     struct error err;
     write_text("scene.pov", text);
     assert_ok(load(scene, "scene.pov", &err), err);
+    assert_ok(settle(scene, &err), err);
 }
 
 /* The text of a file of a copy; the caller frees it. */
@@ -190,7 +198,10 @@ static void coded__declared_textures__stay_with_their_layers(void **state)
         {CODED, "#declare T = texture { A } texture { B }\ntexture { C }\nsphere { 0, 1 texture { T } }",
          "#declare T = texture { A } texture { B }\ntexture { C }\nsphere { 0, 1 transform {} }"},
         {CODED, "#declare P = pigment { rgb 1 } #declare F = finish { phong 1 } #declare N = normal { bumps }", NULL},
-        {CODED, "#local M = material { texture { T } interior { ior 2 } };", NULL},
+        {CODED, "#macro P() #local M = material { texture { T } interior { ior 2 } }; #end", NULL},
+        /* In the scene itself, outside macros, #local is #declare. */
+        {CODED, "#local M = 1; camera { #if (1) #local M = 2; #end }", "#declare M = 1; povgloss_modifiers() } camera { #if (1) "
+                "#declare M = 2; #end } union { povgloss_nothing()"},
         {CODED, "#declare A[0] = texture { T }", NULL},
         {CODED, "#default { texture { pigment { rgb 1 } } }", NULL},
         {CODED, "# default { finish { ambient 0 } } sphere { 0, 1 pigment { P } }",
@@ -541,6 +552,8 @@ static void copy__what_no_scene_has__no_crash(void **state)
         struct error err;
         write_text("scene.pov", sources[i]);
         enum result result = load(&scene, "scene.pov", &err);
+        if (!result)
+            result = settle(&scene, &err);
         for (int copy = 0; !result && copy < SCENE_COPY_COUNT; copy++)
             free(copy_text(&scene, (enum scene_copy)copy, 0));
         scene_free(&scene);
@@ -612,6 +625,7 @@ static void include__in_two_directories__the_first(void **state)
     write_text("scene.inc", "// not in a directory that is looked in");
     write_text("scene.pov", "#include \"x.inc\" #include \"y.inc\" #include \"scene.inc\"");
     assert_ok(scene_load(&scene, in_scratch("scene.pov"), &chosen, directories, 2, &err), err);
+    assert_ok(settle(&scene, &err), err);
     assert_int_equal(scene.file_count, 3);
     assert_string_equal(scene.files[1].path, in_scratch("one/x.inc"));
     assert_string_equal(scene.files[2].path, in_scratch("two/y.inc"));
@@ -674,15 +688,112 @@ static void assert_refused(const char *text, const char *place, const char *what
     scene_free(&scene);
 }
 
-static void load__computed_include__refused_with_file_and_line(void **state)
+/* What POV-Ray must be asked for: what is executed, as far as the text tells. */
+static void load__includes_and_gammas__those_that_need_a_discovery(void **state)
 {
     (void)state;
-    assert_refused("\n#include concat(\"a\", \".inc\")", "scene.pov:2:", "#include");
-    assert_refused("#include Name", "scene.pov:1:", "#include");
+    static const struct {
+        const char *text;
+        bool needed;
+    } cases[] = {
+        {"#include \"a.inc\"", false},
+        {"#include concat(\"a\", \".inc\")", true},
+        {"#include Name", true},
+        {"#include \"none.inc\"", true},
+        {"#macro M(Name) #if (1) #include Name #end #end", false},
+        {"#macro M(Name) #if (1) #end #end #include Name", true},
+        {"#macro M(Name) #include Name #end M(\"a.inc\")", true},
+        {"#macro M(Name) #include Name #end #macro N() M(\"a.inc\") #end", false},
+        {"#macro N() M(\"a.inc\") #end #macro M(Name) #include Name #end N()", true},
+        {"#macro M(Name) #include Name M(Name) #end", false},
+        /* An older file of that name isn't the one that the scene writes. */
+        {"#fopen F \"a.inc\" write #include \"a.inc\"", true},
+        {"#fopen F \"a.inc\" read #include \"a.inc\"", false},
+        {"#fopen F \"b.inc\" append #include \"a.inc\"", false},
+        {"global_settings { assumed_gamma 1 } global_settings { assumed_gamma 1.0 }", false},
+        {"global_settings { assumed_gamma 1 } global_settings { assumed_gamma srgb }", true},
+        {"global_settings { assumed_gamma G }", true},
+        {"global_settings { assumed_gamma 1/2.2 }", true},
+        {"global_settings { assumed_gamma (1) }", true},
+        {"global_settings { assumed_gamma -1 }", true},
+    };
+    write_text("a.inc", "");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct scene scene;
+        load_text(&scene, cases[i].text);
+        if (scene.needs_discovery != cases[i].needed)
+            fail_msg("%s", cases[i].text);
+        scene_free(&scene);
+    }
+    unlink(in_scratch("a.inc"));
+}
+
+static void load__include_without_a_name__refused_with_file_and_line(void **state)
+{
+    (void)state;
     assert_refused("#include", "scene.pov:1:", "#include");
-    write_text("a.inc", "\n\n#include Name");
+    assert_refused("\n#include 3", "scene.pov:2:", "#include");
+    write_text("a.inc", "\n\n#include #if");
     assert_refused("#include \"a.inc\"", "a.inc:3:", "#include");
     unlink(in_scratch("a.inc"));
+}
+
+static enum result discover(struct scene *scene, const char *log, bool *again, struct error *err)
+{
+    const char *const directories[] = {scratch};
+    write_text(SCENE_DISCOVERY_LOG, log);
+    enum result result = scene_discover(scene, scratch, directories, 1, again, err);
+    unlink(in_scratch(SCENE_DISCOVERY_LOG));
+    return result;
+}
+
+static void discover__log__files_and_gamma_taken(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct error err;
+    bool again;
+    write_text("a b.inc", "#include Next");
+    write_text("plain.inc", "Gloss(70)\n#declare Glass = pigment { rgbt 1 }");
+    write_text("scene.pov", "global_settings { assumed_gamma G }\n#include Name #include Name");
+    assert_ok(load(&scene, "scene.pov", &err), err);
+    assert_ok(discover(&scene, "gamma 0 3 1.8\ninclude 0 7 a b.inc\ninclude 0 9 plain.inc\ngamma 0 3 1.5\nend\n", &again, &err), err);
+    assert_true(again);
+    assert_near(scene.working_gamma, 1.8, 1e-12);
+    assert_int_equal(scene.file_count, 3);
+    assert_near(scene.exponent, 70, 1e-12);
+    assert_ok(discover(&scene, "include 0 7 a b.inc\ninclude 1 1 plain.inc\ngamma 0 3 srgb\nend\n", &again, &err), err);
+    assert_false(again);
+    assert_int_equal(scene.file_count, 3);
+    assert_near(scene.working_gamma, GBUFFER_GAMMA_SRGB, 1e-12);
+    assert_ok(scene_settle(&scene, &err), err);
+    assert_string_equal(scene.clear.data, "Glass");
+    char *text = copy_text(&scene, SCENE_COPY_CODED, 0);
+    assert_non_null(strstr(text, "\n#declare povgloss_name = Name; #if (strcmp(povgloss_name, \"a b.inc\") = 0) "
+                                 "#declare povgloss_name = \"coded-001-a_b.inc\"; #end "));
+    free(text);
+    assert_int_equal(discover(&scene, "include 0 9 none.inc\nend\n", &again, &err), RESULT_DATA);
+    assert_contains(err.text, "scene.pov:2: none.inc");
+    scene_free(&scene);
+    unlink(in_scratch("a b.inc"));
+    unlink(in_scratch("plain.inc"));
+}
+
+static void discover__hostile_logs__no_crash(void **state)
+{
+    (void)state;
+    static const char *const logs[] = {"", "\n", "include", "include 0", "include 0 1 ", "include -1 0 x\n", "include 9 0 x\n",
+                                       "include 0 99 x\n", "include 0 -1 x\n", "gamma\n", "gamma 0 0 x", "\nend\n",
+                                       "include 99999999999999999999 0 x\n"};
+    struct scene scene;
+    load_text(&scene, "#include Name");
+    for (size_t i = 0; i < sizeof logs / sizeof *logs; i++) {
+        struct error err;
+        bool again;
+        assert_ok(discover(&scene, logs[i], &again, &err), err);
+        assert_int_equal(scene.file_count, 1);
+    }
+    scene_free(&scene);
 }
 
 static void load__unclosed_comment_in_an_include__refused_with_file_and_line(void **state)
@@ -747,13 +858,11 @@ static void load__gamma__number_srgb_or_by_version(void **state)
     }
 }
 
-static void load__gamma_by_an_expression__refused_with_file_and_line(void **state)
+static void load__gamma_without_a_value__refused_with_file_and_line(void **state)
 {
     (void)state;
-    assert_refused("global_settings {\n assumed_gamma G }", "scene.pov:2:", "assumed_gamma");
-    assert_refused("global_settings { assumed_gamma 1/2.2 }", "scene.pov:1:", "assumed_gamma");
-    assert_refused("global_settings { assumed_gamma (1) }", "scene.pov:1:", "assumed_gamma");
-    assert_refused("global_settings { assumed_gamma -1 }", "scene.pov:1:", "assumed_gamma");
+    assert_refused("global_settings {\n assumed_gamma }", "scene.pov:2:", "assumed_gamma");
+    assert_refused("global_settings { assumed_gamma #if (1) 1 #end }", "scene.pov:1:", "assumed_gamma");
     assert_refused("global_settings { assumed_gamma", "scene.pov:1:", "assumed_gamma");
 }
 
@@ -935,8 +1044,8 @@ static void load__names__of_all_files_once(void **state)
     struct scene scene;
     write_text("n.inc", "#declare In = 1; #declare A = 2;");
     load_text(&scene, "#declare A = 1; #local Bc = light_source { 0 rgb 1 } #macro M(P) #end #include \"n.inc\"\n"
-                      "#declare A = 3; #declare L = sphere { 0, 1 } // #declare No = 1;\n#declare AA = 1;");
-    static const char names[] = "A\0Bc\0M\0In\0L\0AA";
+                      "#declare A = 3; #declare L = sphere { 0, 1 } // #declare No = 1;\n#declare AA = 1;\n#fopen F \"f\" write");
+    static const char names[] = "A\0Bc\0M\0In\0L\0AA\0F";
     assert_int_equal(scene.names.size, sizeof names);
     assert_memory_equal(scene.names.data, names, sizeof names);
     assert_int_equal(scene.lights.size, 3);
@@ -1066,6 +1175,7 @@ static void copy__sample_scenes__every_line_where_it_was(void **state)
         struct scene scene;
         struct error err;
         assert_ok(scene_load(&scene, sample_path(i), &chosen, directories, 1, &err), err);
+        assert_ok(settle(&scene, &err), err);
         assert_true(scene.file_count >= 2);
         assert_true(scene.glossy);
         for (int copy = 0; copy < SCENE_COPY_COUNT; copy++)
@@ -1087,6 +1197,8 @@ static void try_damaged(const char *data, size_t size)
     struct error err;
     write_bytes(in_scratch("scene.pov"), data, size);
     enum result result = load(&scene, "scene.pov", &err);
+    if (!result)
+        result = settle(&scene, &err);
     assert_true(result == RESULT_OK || result == RESULT_DATA);
     for (int copy = 0; !result && copy < SCENE_COPY_COUNT; copy++) {
         size_t copy_size;
@@ -1194,12 +1306,15 @@ int main(void)
         cmocka_unit_test(include__in_two_directories__the_first),
         cmocka_unit_test(include__absolute_path__taken_as_it_is),
         cmocka_unit_test(include__cycle__ends),
-        cmocka_unit_test(load__computed_include__refused_with_file_and_line),
+        cmocka_unit_test(load__includes_and_gammas__those_that_need_a_discovery),
+        cmocka_unit_test(load__include_without_a_name__refused_with_file_and_line),
+        cmocka_unit_test(discover__log__files_and_gamma_taken),
+        cmocka_unit_test(discover__hostile_logs__no_crash),
         cmocka_unit_test(load__unclosed_comment_in_an_include__refused_with_file_and_line),
         cmocka_unit_test(load__missing_scene_or_folder__refused),
         cmocka_unit_test(write__missing_folder__refused),
         cmocka_unit_test(load__gamma__number_srgb_or_by_version),
-        cmocka_unit_test(load__gamma_by_an_expression__refused_with_file_and_line),
+        cmocka_unit_test(load__gamma_without_a_value__refused_with_file_and_line),
         cmocka_unit_test(load__version__of_the_first_directive),
         cmocka_unit_test(load__gloss_calls__found_with_their_one_exponent),
         cmocka_unit_test(load__chosen_gloss__noted_with_its_one_exponent),

@@ -1,0 +1,441 @@
+/* Each file is walked once as it is read; what depends on all files follows in scene_settle. Whether a finish is glossy is
+ * left to POV-Ray, since macros and conditions decide it: here it counts what may be.
+ */
+#include "scene.h"
+
+#include "gbuffer.h"
+#include "input_file.h"
+#include "lobe.h"
+#include "scene_tokens.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_FILES = 1000 };
+
+/* Notes that something is glossy with this exponent; negative: it is known to POV-Ray only. */
+static void note_exponent(struct scene *scene, double exponent)
+{
+    if (!scene->glossy)
+        scene->exponent = exponent;
+    else if (scene->exponent != exponent)
+        scene->exponent = -1;
+    scene->glossy = true;
+}
+
+/* Notes one call Gloss(p) or Gloss_Roughness(r) whose name is at `token`. */
+static void note_gloss(struct scene *scene, const struct scene_file *file, int token)
+{
+    double exponent = -1;
+    if (file->list.tokens[token + 2].kind == TOKEN_NUMBER && is_mark(file, token + 3, ")")) {
+        exponent = number_value(file, token + 2);
+        if (is_word(file, token, "Gloss_Roughness"))
+            exponent = lobe_phong_from_roughness(exponent);
+    }
+    note_exponent(scene, exponent);
+}
+
+/* A `reflection` makes a plain mirror unless its finish is glossy or it is the number 0. */
+static bool is_plain_mirror(const struct scene_file *file, int token)
+{
+    int brace = file->list.tokens[token].parent;
+    if (brace > 0 && is_word(file, block_keyword(file, brace), "photons"))
+        return false;
+    bool zero = is_zero(file, token + 1);
+    if (brace <= 0 || !is_word(file, brace - 1, "finish") || file->list.tokens[brace].match < 0)
+        return !zero;
+    bool gloss = false, conditional = false;
+    for (int i = brace; i < file->list.tokens[brace].match; i++) {
+        gloss |= is_word(file, i, "Gloss") || is_word(file, i, "Gloss_Roughness");
+        conditional |= file->list.tokens[i].kind == TOKEN_DIRECTIVE;
+    }
+    return !zero && (!gloss || conditional);
+}
+
+/* The first assumed_gamma of a scene is the one that POV-Ray takes: which of several that is, only POV-Ray knows. */
+static enum result note_gamma(struct scene *scene, const struct scene_file *file, int token, struct error *err)
+{
+    bool srgb = is_word(file, token + 1, "srgb");
+    int end = srgb ? token + 2 : value_end(file, token + 1);
+    if (end == token + 1)
+        return error_set(err, RESULT_DATA, "%s:%d: assumed_gamma must be a number, an expression or srgb", file->path,
+                         file->list.tokens[token].line);
+    bool literal = srgb || (file->list.tokens[token + 1].kind == TOKEN_NUMBER && end == token + 2);
+    double gamma = srgb ? GBUFFER_GAMMA_SRGB : literal ? number_value(file, token + 1) : 0;
+    if (scene->gammas++ == 0)
+        scene->working_gamma = gamma;
+    scene->needs_discovery |= !literal || scene->working_gamma != gamma;
+    return RESULT_OK;
+}
+
+static enum result load_file(struct scene *scene, char *path, const char *const *directories, int directory_count,
+                             struct error *err);
+
+enum result scene_find_file(const char *name, const char *const *directories, int directory_count, char **path,
+                            struct error *err)
+{
+    *path = NULL;
+    for (int i = 0; i < directory_count; i++) {
+        enum result result = name[0] == '/' ? text_printf(path, err, "%s", name)
+                                            : text_printf(path, err, "%s/%s", directories[i], name);
+        if (result || access(*path, R_OK) == 0)
+            return result;
+        free(*path);
+        *path = NULL;
+    }
+    return RESULT_OK;
+}
+
+/* Whether the file's own text opens a file by the same literal name to write it. */
+static bool writes_file(const struct scene_file *file, int name)
+{
+    const struct token *tokens = file->list.tokens;
+    size_t length = tokens[name].end - tokens[name].begin;
+    for (int i = 0; i < file->list.count - 3; i++)
+        if (is_directive(file, i, "fopen") && !is_word(file, i + 3, "read") &&
+            tokens[i + 2].end - tokens[i + 2].begin == length &&
+            !memcmp(file->source.data + tokens[i + 2].begin, file->source.data + tokens[name].begin, length))
+            return true;
+    return false;
+}
+
+enum result scene_add_file(struct scene *scene, char *path, const char *const *directories, int directory_count,
+                           int *index, struct error *err)
+{
+    for (*index = 0; *index < scene->file_count; ++*index)
+        if (!strcmp(scene->files[*index].path, path)) {
+            free(path);
+            return RESULT_OK;
+        }
+    return load_file(scene, path, directories, directory_count, err);
+}
+
+static enum result follow_include(struct scene *scene, int index, int token, const char *const *directories,
+                                  int directory_count, struct error *err)
+{
+    struct scene_file *file = &scene->files[index];
+    const struct token *name = &file->list.tokens[token];
+    int end = string_end(file, token), target = -1;
+    if (end == token)
+        return error_set(err, RESULT_DATA, "%s:%d: an #include must be followed by a file's name", file->path,
+                         name->line);
+    char *literal = NULL, *path = NULL;
+    enum result result = RESULT_OK;
+    if (name->kind == TOKEN_STRING && !writes_file(file, token)) {
+        result = text_printf(&literal, err, "%.*s", (int)(name->end - name->begin - 2),
+                             file->source.data + name->begin + 1);
+        if (!result)
+            result = scene_find_file(literal, directories, directory_count, &path, err);
+        free(literal);
+    }
+    if (!result && path)
+        result = scene_add_file(scene, path, directories, directory_count, &target, err);
+    if (result)
+        return result;
+    file = &scene->files[index];
+    struct scene_include *includes =
+        realloc(file->includes, ((size_t)file->include_count + 1) * sizeof *file->includes);
+    if (!includes)
+        return error_memory(err, sizeof *file->includes);
+    includes[file->include_count++] = (struct scene_include){.token = token, .end = end, .file = target};
+    file->includes = includes;
+    return RESULT_OK;
+}
+
+/* `X = array[2] { finish {...}, ... }`, at X. */
+static bool is_filled_array(const struct scene_file *file, int name)
+{
+    if (!is_mark(file, name + 1, "=") || !is_word(file, name + 2, "array"))
+        return false;
+    int token = name + 3;
+    while (is_mark(file, token, "[") || is_mark(file, token, "]") || file->list.tokens[token].kind == TOKEN_NUMBER)
+        token++;
+    return is_mark(file, token, "{");
+}
+
+/* `X = texture {...} texture {...}`, at X. */
+static bool is_layered(const struct scene_file *file, int name)
+{
+    return is_mark(file, name + 1, "=") && is_word(file, name + 2, "texture") && opens_block(file, name + 2) &&
+           is_word(file, file->list.tokens[name + 3].match + 1, "texture");
+}
+
+static const char *const mixing_words[] = {"texture_map", "average", "blob", "texture_list", "smooth_triangle", NULL};
+
+static enum result note_token(struct scene *scene, int index, int token, struct error *err)
+{
+    const struct scene_file *file = &scene->files[index];
+    const struct token *tokens = file->list.tokens;
+    int name = is_directive(file, token, "fopen") ? token + 1 : declared_name(file, token);
+    if (name > 0 && tokens[name].kind == TOKEN_WORD) {
+        bool value = is_mark(file, name + 1, "=");
+        enum result result = add_name(&scene->names, file, name, err);
+        if (!result && value && is_word(file, name + 2, "light_source"))
+            result = add_name(&scene->lights, file, name, err);
+        if (!result && is_filled_array(file, name))
+            result = add_name(&scene->arrays, file, name, err);
+        if (!result && is_layered(file, name))
+            result = add_name(&scene->layered, file, name, err);
+        if (!result && value && in_list(file, name + 2, glossy_words))
+            result = add_name(&scene->glossable, file, name, err);
+        return result;
+    }
+    if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
+        scene->plain_mirrors = true;
+    if (in_list(file, token, highlight_words))
+        scene->highlights = true;
+    if (in_list(file, token, mixing_words))
+        scene->mixes = true;
+    if (is_word(file, token, "aperture"))
+        scene->focal_blur = true;
+    if (is_word(file, token, "assumed_gamma"))
+        return note_gamma(scene, file, token, err);
+    bool own = !strcmp(base_name(file->path), "povgloss.inc");
+    if (!own && (is_word(file, token, "Gloss") || is_word(file, token, "Gloss_Roughness")) &&
+        is_mark(file, token + 1, "(") && !is_directive(file, token - 1, "macro"))
+        note_gloss(scene, file, token);
+    static const char *const atmospheres[] = {"fog", "rainbow", "media"};
+    for (size_t i = 0; i < sizeof atmospheres / sizeof *atmospheres; i++)
+        if (is_word(file, token, atmospheres[i]) && tokens[token].parent < 0 && opens_block(file, token) &&
+            !is_mark(file, token - 1, "="))
+            scene->atmosphere = atmospheres[i];
+    return RESULT_OK;
+}
+
+/* Takes `path` over. */
+static enum result load_file(struct scene *scene, char *path, const char *const *directories, int directory_count,
+                             struct error *err)
+{
+    enum result result = RESULT_OK;
+    struct scene_file *files = realloc(scene->files, ((size_t)scene->file_count + 1) * sizeof *files);
+    if (!files || scene->file_count >= MAX_FILES) {
+        result = files ? error_set(err, RESULT_DATA, "%s: the scene has more than %d files", path, MAX_FILES)
+                       : error_memory(err, sizeof *files);
+        scene->files = files ? files : scene->files;
+        free(path);
+        return result;
+    }
+    scene->files = files;
+    int index = scene->file_count++;
+    files[index] = (struct scene_file){.path = path};
+    struct input_file input;
+    result = input_file_read(path, &input, err);
+    if (!result)
+        result = buffer_add(&files[index].source, input.data, input.size, err);
+    input_file_free(&input);
+    if (!result)
+        result = scene_lex(path, &files[index].source, &files[index].list, err);
+    for (int token = 0; !result && token < scene->files[index].list.count; token++) {
+        result = note_token(scene, index, token, err);
+        if (!result && is_directive(&scene->files[index], token, "include"))
+            result = follow_include(scene, index, token + 1, directories, directory_count, err);
+    }
+    return result;
+}
+
+static const char *const clear_words[] = {"rgbt",   "rgbf",     "rgbft",  "srgbt",     "srgbf",
+                                          "srgbft", "transmit", "filter", "image_map", NULL};
+
+/* Whether the token names a transparent colour, an image, or something that was declared with one. */
+static bool names_clear(const struct scene *scene, const struct scene_file *file, int token)
+{
+    return in_list(file, token, clear_words) || find_name(&scene->clear, file, token) >= 0;
+}
+
+static enum result count_clear(struct scene *scene, struct error *err)
+{
+    for (int i = 0; i < scene->file_count; i++) {
+        struct scene_file *file = &scene->files[i];
+        size_t size = ((size_t)file->list.count + 1) * sizeof *file->clear;
+        file->clear = calloc(1, size);
+        if (!file->clear)
+            return error_memory(err, (double)size);
+        for (int token = 0; token < file->list.count; token++)
+            file->clear[token + 1] = file->clear[token] + (names_clear(scene, file, token) ||
+                                                            find_name(&scene->parameters, file, token) >= 0);
+    }
+    return RESULT_OK;
+}
+
+static enum result note_parameters(struct scene *scene, const struct scene_file *file, int name, struct error *err)
+{
+    enum result result = RESULT_OK;
+    int last = is_mark(file, name + 1, "(") ? file->list.tokens[name + 1].match : -1;
+    for (int token = name + 2; !result && token < last; token++)
+        if (file->list.tokens[token].kind == TOKEN_WORD)
+            result = add_name(&scene->parameters, file, token, err);
+    return result;
+}
+
+/* Notes whether the name that the directive at `token` declares may be transparent: what a parameter of a macro gives to it
+ * is as unknown as the parameter. */
+static enum result note_clear_name(struct scene *scene, const struct scene_file *file, int token, struct error *err)
+{
+    bool macro = is_directive(file, token, "macro"), clear = false, unknown = false;
+    int name = declared_name(file, token);
+    if (name < 0 || file->list.tokens[name].kind != TOKEN_WORD)
+        return RESULT_OK;
+    enum result result = macro ? note_parameters(scene, file, name, err) : RESULT_OK;
+    int last = macro ? end_of_macro(file, token) : last_of_value(file, name + 1);
+    for (int word = name + 1; word <= last; word++) {
+        clear |= names_clear(scene, file, word);
+        unknown |= !macro && find_name(&scene->parameters, file, word) >= 0;
+    }
+    if (!result && clear)
+        result = add_name(&scene->clear, file, name, err);
+    if (!result && unknown)
+        result = add_name(&scene->parameters, file, name, err);
+    return result;
+}
+
+/* Finds the names through which a pigment may be transparent: those declared with a transparent colour or an image, or with
+ * such a name, until none is added. */
+static enum result note_clear_names(struct scene *scene, struct error *err)
+{
+    enum result result = RESULT_OK;
+    size_t before;
+    do {
+        before = scene->clear.size + scene->parameters.size;
+        for (int i = 0; i < scene->file_count; i++)
+            for (int token = 0; !result && token < scene->files[i].list.count - 1; token++)
+                result = note_clear_name(scene, &scene->files[i], token, err);
+    } while (!result && scene->clear.size + scene->parameters.size != before);
+    return result;
+}
+
+static bool has_name(const struct buffer *names, const char *name)
+{
+    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1)
+        if (!strcmp(names->data + at, name))
+            return true;
+    return false;
+}
+
+/* Notes what the user chose to be glossy. */
+static enum result note_choice(struct scene *scene, const struct gloss_choice *choice, struct error *err)
+{
+    for (int i = 0; i < choice->name_count; i++) {
+        if (!has_name(&scene->glossable, choice->names[i].name))
+            return error_set(err, RESULT_DATA,
+                             "%s: no finish, texture or material is declared by the name %s: `povgloss list` shows those "
+                             "that reflect",
+                             scene->files[0].path, choice->names[i].name);
+        note_exponent(scene, choice->names[i].exponent);
+    }
+    if (scene->plain_mirrors && choice->all)
+        note_exponent(scene, choice->all_exponent);
+    if (scene->plain_mirrors && choice->automatic && scene->highlights)
+        note_exponent(scene, -1);
+    return RESULT_OK;
+}
+
+bool scene_has_unknown_include(const struct scene_file *file)
+{
+    for (int i = 0; i < file->include_count; i++)
+        if (file->includes[i].file < 0)
+            return true;
+    return false;
+}
+
+/* Adds to `called`, which names macros that the scene may call, those that one of them may call in turn. */
+static enum result add_called(const struct scene *scene, struct buffer *called, struct error *err)
+{
+    enum result result = RESULT_OK;
+    size_t before;
+    do {
+        before = called->size;
+        for (int i = 0; !result && i < scene->file_count; i++) {
+            const struct scene_file *file = &scene->files[i];
+            struct nesting nesting = {0};
+            for (int token = 0; !result && token < file->list.count; token++) {
+                nest(&nesting, file, token);
+                if (is_mark(file, token + 1, "(") && find_name(&scene->names, file, token) >= 0 &&
+                    token != nesting.macro &&
+                    (!nesting.macro || find_name(called, file, nesting.macro) >= 0))
+                    result = add_name(called, file, token, err);
+            }
+        }
+    } while (!result && called->size > before);
+    return result;
+}
+
+/* An include whose file isn't known matters unless it stands in a macro that is never called. */
+static enum result note_unknown_includes(struct scene *scene, struct error *err)
+{
+    bool unknown = false;
+    for (int i = 0; i < scene->file_count; i++)
+        unknown |= scene_has_unknown_include(&scene->files[i]);
+    if (!unknown)
+        return RESULT_OK;
+    struct buffer called = {0};
+    enum result result = add_called(scene, &called, err);
+    for (int i = 0; !result && i < scene->file_count; i++) {
+        const struct scene_file *file = &scene->files[i];
+        struct nesting nesting = {0};
+        for (int token = 0, include = 0; include < file->include_count; token++) {
+            nest(&nesting, file, token);
+            if (token != file->includes[include].token)
+                continue;
+            if (file->includes[include++].file < 0 && (!nesting.macro || find_name(&called, file, nesting.macro) >= 0))
+                scene->needs_discovery = true;
+        }
+    }
+    buffer_free(&called);
+    return result;
+}
+
+double scene_default_gamma(const struct scene *scene)
+{
+    return scene->version >= 3.7 ? 1 : GBUFFER_GAMMA_SRGB;
+}
+
+enum result scene_settle(struct scene *scene, struct error *err)
+{
+    enum result result = note_clear_names(scene, err);
+    if (!result)
+        result = count_clear(scene, err);
+    return result ? result : note_choice(scene, scene->choice, err);
+}
+
+enum result scene_load(struct scene *scene, const char *path, const struct gloss_choice *choice,
+                       const char *const *directories, int directory_count, struct error *err)
+{
+    *scene = (struct scene){.choice = choice, .exponent = -1};
+    char *copy = strdup(path);
+    if (!copy)
+        return error_memory(err, (double)strlen(path));
+    enum result result = load_file(scene, copy, directories, directory_count, err);
+    if (result)
+        return result;
+    const struct scene_file *main_file = &scene->files[0];
+    if (is_directive(main_file, 0, "version") && main_file->list.tokens[1].kind == TOKEN_NUMBER)
+        scene->version = number_value(main_file, 1);
+    if (scene->gammas == 0)
+        scene->working_gamma = scene_default_gamma(scene);
+    result = note_unknown_includes(scene, err);
+    return result || scene->needs_discovery ? result : scene_settle(scene, err);
+}
+
+void scene_free(struct scene *scene)
+{
+    for (int i = 0; i < scene->file_count; i++) {
+        free(scene->files[i].path);
+        free(scene->files[i].includes);
+        buffer_free(&scene->files[i].source);
+        token_list_free(&scene->files[i].list);
+        free(scene->files[i].clear);
+    }
+    free(scene->files);
+    for (int i = 0; i < scene->found_count; i++)
+        free(scene->found[i].name);
+    free(scene->found);
+    buffer_free(&scene->names);
+    buffer_free(&scene->lights);
+    buffer_free(&scene->arrays);
+    buffer_free(&scene->layered);
+    buffer_free(&scene->glossable);
+    buffer_free(&scene->clear);
+    buffer_free(&scene->parameters);
+    *scene = (struct scene){0};
+}

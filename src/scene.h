@@ -1,0 +1,80 @@
+/* A POV-Ray scene with its include files, as tokens, and the facts that decide which passes it needs. */
+#ifndef POVGLOSS_SCENE_H
+#define POVGLOSS_SCENE_H
+
+#include "gloss_choice.h"
+#include "scene_lexer.h"
+
+struct scene_include {
+    int token, end; /* the expression after #include: its first token, and the one after it */
+    int file;       /* index of the file it names; -1: known to POV-Ray only */
+};
+
+/* What POV-Ray included by a name that was computed, or that is in none of the directories. */
+struct scene_found {
+    char *name; /* as in the #include */
+    int file;   /* index; -1: to be included as it is */
+};
+
+struct scene_file {
+    char *path;   /* as the user knows it */
+    bool written; /* by the scene itself, in the folder where POV-Ray runs */
+    struct buffer source;
+    struct token_list list;
+    int *clear; /* for each token, how many before it name something that may be transparent */
+    struct scene_include *includes;
+    int include_count;
+};
+
+struct scene {
+    const struct gloss_choice *choice;
+    struct scene_file *files; /* the first one is the scene */
+    int file_count;
+    struct scene_found *found;
+    int found_count;
+    bool needs_discovery;  /* its includes or its assumed_gamma are known to POV-Ray only: scene_discover */
+    struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
+    struct buffer lights;  /* in the same form: names that were declared as a light_source, */
+    struct buffer arrays;  /* as an array filled in its declaration, */
+    struct buffer layered; /* as a texture of several layers, */
+    struct buffer glossable; /* as a finish, texture or material, */
+    struct buffer clear;     /* as something that may be transparent, */
+    struct buffer parameters; /* as a parameter of a macro, which may be anything, or with one */
+    bool glossy;           /* some finish may be glossy, by Gloss or Gloss_Roughness or by the user's choice */
+    double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
+    bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
+    bool mixes;            /* some texture may mix others: a map, an average, a blob, a mesh with a texture at each corner */
+    bool highlights;       /* some finish names the size of a highlight */
+    double version;        /* of a #version that opens the scene; 0: none */
+    double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
+    int gammas;            /* how often an assumed_gamma is written anywhere */
+    bool focal_blur;        /* some camera has an aperture */
+    const char *atmosphere; /* "fog", "rainbow" or "media" where the scene has one at top level, else NULL */
+};
+
+/* Reads the scene and every file it includes by a literal name; `choice` is kept. An include file is looked for in
+ * `directories`, in their order. Unless it needs a discovery the scene is settled. The caller frees it, also after a
+ * failure. RESULT_DATA, with file and line, for what can't be taken, and for a chosen name that nothing glossy could
+ * have. */
+MUST_CHECK enum result scene_load(struct scene *scene, const char *path, const struct gloss_choice *choice,
+                                  const char *const *directories, int directory_count, struct error *err);
+void scene_free(struct scene *scene);
+
+/* Finds what follows from all files together: once, when they are known. RESULT_DATA for a chosen name that nothing
+ * glossy could have. */
+MUST_CHECK enum result scene_settle(struct scene *scene, struct error *err);
+
+/* The path of an include file, which the caller frees; *path is NULL when it isn't in any of the directories. */
+MUST_CHECK enum result scene_find_file(const char *name, const char *const *directories, int directory_count,
+                                       char **path, struct error *err);
+
+/* Takes `path` over, and gives the index of the file, which is read, with those that it includes, if it is new. */
+MUST_CHECK enum result scene_add_file(struct scene *scene, char *path, const char *const *directories,
+                                      int directory_count, int *index, struct error *err);
+
+bool scene_has_unknown_include(const struct scene_file *file);
+
+/* The working_gamma of a scene that says nothing. */
+double scene_default_gamma(const struct scene *scene);
+
+#endif

@@ -1,0 +1,228 @@
+/* Questions about the tokens of a scene's file, for those who read and rewrite it. Token numbers beyond either end are
+ * no word, mark or directive. */
+#ifndef POVGLOSS_SCENE_TOKENS_H
+#define POVGLOSS_SCENE_TOKENS_H
+
+#include "scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* What may follow the = of a name that can be made glossy. */
+static const char *const glossy_words[] = {"finish", "texture", "material", NULL};
+
+/* The items of a finish whose values are the lobe of a highlight. */
+static const char *const highlight_words[] = {"phong_size", "roughness", NULL};
+
+static inline bool is_word(const struct scene_file *file, int token, const char *word)
+{
+    return token >= 0 && token < file->list.count &&
+           token_is(&file->source, &file->list.tokens[token], TOKEN_WORD, word);
+}
+
+static inline bool is_mark(const struct scene_file *file, int token, const char *mark)
+{
+    return token >= 0 && token < file->list.count &&
+           token_is(&file->source, &file->list.tokens[token], TOKEN_MARK, mark);
+}
+
+static inline bool is_directive(const struct scene_file *file, int token, const char *word)
+{
+    return token >= 0 && token_is(&file->source, &file->list.tokens[token], TOKEN_DIRECTIVE, word);
+}
+
+static inline bool in_list(const struct scene_file *file, int token, const char *const *words)
+{
+    for (; *words; words++)
+        if (token_is(&file->source, &file->list.tokens[token], TOKEN_WORD, *words))
+            return true;
+    return false;
+}
+
+static inline double number_value(const struct scene_file *file, int token)
+{
+    return strtod(file->source.data + file->list.tokens[token].begin, NULL);
+}
+
+static inline bool opens_block(const struct scene_file *file, int token)
+{
+    return is_mark(file, token + 1, "{") && file->list.tokens[token + 1].match > 0;
+}
+
+/* Whether the directive is closed by an #end. */
+static inline bool opens_nesting(const struct scene_file *file, int token)
+{
+    static const char *const openers[] = {"if", "ifdef", "ifndef", "while", "for", "switch", "macro", NULL};
+    for (int i = 0; openers[i]; i++)
+        if (is_directive(file, token, openers[i]))
+            return true;
+    return false;
+}
+
+/* The innermost conditions and macros, as one walks over a file's directives. */
+struct nesting {
+    int depth;
+    int macro, macro_depth; /* the name of the outermost macro around; 0: none */
+};
+
+static inline void nest(struct nesting *nesting, const struct scene_file *file, int token)
+{
+    if (opens_nesting(file, token)) {
+        nesting->depth++;
+        if (!nesting->macro && is_directive(file, token, "macro")) {
+            nesting->macro = token + 1;
+            nesting->macro_depth = nesting->depth;
+        }
+    } else if (is_directive(file, token, "end") && nesting->depth > 0) {
+        if (nesting->macro && nesting->depth == nesting->macro_depth)
+            nesting->macro = 0;
+        nesting->depth--;
+    }
+}
+
+/* The token that says what kind of block an opening brace begins: `union {`, `function (x, y) {`, `function 9, 9 {`. */
+static inline int block_keyword(const struct scene_file *file, int brace)
+{
+    int token = brace - 1;
+    if (is_mark(file, token, ")") && file->list.tokens[token].match > 0)
+        token = file->list.tokens[token].match - 1;
+    while (token > 0 && (file->list.tokens[token].kind == TOKEN_NUMBER || is_mark(file, token, ",")))
+        token--;
+    return token;
+}
+
+static inline bool inside(const struct scene_file *file, int token, const char *keyword)
+{
+    for (int brace = file->list.tokens[token].parent; brace >= 0; brace = file->list.tokens[brace].parent)
+        if (brace > 0 && is_word(file, block_keyword(file, brace), keyword))
+            return true;
+    return false;
+}
+
+static inline bool is_zero(const struct scene_file *file, int token)
+{
+    static const char *const operators[] = {"+", "-", "*", "/", NULL};
+    bool zero = file->list.tokens[token].kind == TOKEN_NUMBER && number_value(file, token) == 0;
+    for (int i = 0; zero && operators[i]; i++)
+        zero = !is_mark(file, token + 1, operators[i]);
+    return zero;
+}
+
+/* The token after the value that begins at `token`; of the operators in it, the four of arithmetic are followed. */
+static inline int value_end(const struct scene_file *file, int token)
+{
+    for (;;) {
+        while (is_mark(file, token, "+") || is_mark(file, token, "-"))
+            token++;
+        if (is_mark(file, token, "<"))
+            while (token < file->list.count - 1 && !is_mark(file, token, ">"))
+                token++;
+        else if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
+            token = file->list.tokens[token].match;
+        else if (file->list.tokens[token].kind != TOKEN_NUMBER && file->list.tokens[token].kind != TOKEN_WORD)
+            return token;
+        token++;
+        for (;;) {
+            if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
+                token = file->list.tokens[token].match + 1;
+            else if (is_mark(file, token, "["))
+                while (token < file->list.count - 1 && !is_mark(file, token++, "]"))
+                    ;
+            else if (is_mark(file, token, "."))
+                token += 2;
+            else
+                break;
+        }
+        if (!is_mark(file, token, "+") && !is_mark(file, token, "-") && !is_mark(file, token, "*") &&
+            !is_mark(file, token, "/"))
+            return token;
+        token++;
+    }
+}
+
+/* The token after the string expression that begins at `token`. */
+static inline int string_end(const struct scene_file *file, int token)
+{
+    if (file->list.tokens[token].kind == TOKEN_STRING)
+        return token + 1;
+    return file->list.tokens[token].kind == TOKEN_WORD ? value_end(file, token) : token;
+}
+
+static inline const char *base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* The name that the directive at `token` declares, or -1: `#declare deprecated once "message" X`, `#macro X`. */
+static inline int declared_name(const struct scene_file *file, int token)
+{
+    if (is_directive(file, token, "macro"))
+        return token + 1;
+    if (!is_directive(file, token, "declare") && !is_directive(file, token, "local"))
+        return -1;
+    token++;
+    if (is_word(file, token, "deprecated")) {
+        token += 1 + is_word(file, token + 1, "once");
+        token += file->list.tokens[token].kind == TOKEN_STRING;
+    }
+    return token;
+}
+
+/* The last token of the value that is declared from `token` on, roughly: never too early. */
+static inline int last_of_value(const struct scene_file *file, int token)
+{
+    while (token < file->list.count - 1 && file->list.tokens[token].kind != TOKEN_DIRECTIVE && !is_mark(file, token, ";")) {
+        int match = is_mark(file, token, "{") ? file->list.tokens[token].match : -1;
+        if (match > 0 && !is_word(file, match + 1, "texture"))
+            return match;
+        token = match > 0 ? match + 1 : token + 1;
+    }
+    return token;
+}
+
+/* The #end of the #macro at `token`. */
+static inline int end_of_macro(const struct scene_file *file, int token)
+{
+    int depth = 0;
+    for (; token < file->list.count - 1; token++) {
+        if (file->list.tokens[token].kind != TOKEN_DIRECTIVE)
+            continue;
+        depth += opens_nesting(file, token);
+        depth -= is_directive(file, token, "end");
+        if (depth <= 0)
+            break;
+    }
+    return token;
+}
+
+/* Whether one of the tokens may be transparent. */
+static inline bool may_be_clear(const struct scene_file *file, int first, int last)
+{
+    return last >= first && file->clear[last + 1] > file->clear[first];
+}
+
+/* The index of the word at `token` in a list of names, or -1. */
+static inline int find_name(const struct buffer *names, const struct scene_file *file, int token)
+{
+    if (token < 0 || file->list.tokens[token].kind != TOKEN_WORD)
+        return -1;
+    const char *word = file->source.data + file->list.tokens[token].word;
+    size_t length = file->list.tokens[token].word_length;
+    int index = 0;
+    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1, index++)
+        if (strlen(names->data + at) == length && !memcmp(names->data + at, word, length))
+            return index;
+    return -1;
+}
+
+static inline enum result add_name(struct buffer *names, const struct scene_file *file, int token, struct error *err)
+{
+    if (find_name(names, file, token) >= 0)
+        return RESULT_OK;
+    enum result result = buffer_add(names, file->source.data + file->list.tokens[token].word,
+                                    file->list.tokens[token].word_length, err);
+    return result ? result : buffer_add(names, "", 1, err);
+}
+
+#endif
