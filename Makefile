@@ -146,6 +146,10 @@ build/figures/figures.png: $(FIGURES)
 check: $(PROGRAMS) $(PRELOAD) $(UNIT_TESTS) $(TOOLS) ## all tests; SANITIZE=address,undefined tests a sanitized build
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools CC=$(CC) scripts/check.sh $(UNIT_TESTS)
 
+.PHONY: corpus
+corpus: $(PROGRAMS) ## run every scene of povray-examples as it is; the table is docs/corpus.md
+	BIN=$(BUILD)/bin OUT=$(BUILD)/corpus REPORT=docs/corpus.md scripts/corpus.sh
+
 .PHONY: clean
 clean: ## remove everything that make built
 	rm -rf build
