@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* What povgloss_end puts last into every finish. Later items of a finish override earlier ones; povgloss_phong is 0 or more
  * when the finish is glossy, povgloss_reflects is 1 when it names a reflection of its own. A finish without either keeps
@@ -24,7 +25,7 @@ static const char mirror_white[] = "rgb 1";
 static const char mirror_exponent[] = "#local povgloss_v = 65535*log(1 + povgloss_phong)/log(2)/128;\n"
                                       "  rgb <floor(povgloss_v)/65535, povgloss_v - floor(povgloss_v), 1>";
 
-static const char sky_half[] = "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } no_reflection no_shadow }\n"
+static const char sky_half[] = "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n"
                                "sky_sphere { pigment { rgb 0.5 } }\n";
 static const char sky_white[] = "sky_sphere { pigment { rgb 1 } }\n";
 #define MIRRORS "no_reflection no_shadow no_radiosity"
@@ -292,7 +293,8 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
         return result;
     }
     if (!result)
-        result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s\n", part->modifiers);
+        result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n", part->modifiers,
+                               scene->atmosphere && !strcmp(scene->atmosphere, "fog") ? " hollow" : "");
     if (!result && part->coded)
         result = add_coding_texture(pass, text, err);
     if (!result)
@@ -319,10 +321,16 @@ static enum result add_coded_sky(const struct pass *pass, struct buffer *text, s
     return result ? result : buffer_add_text(text, "}\n", err);
 }
 
-/* The base pass needs its second copy only where a mirror may show a glossy surface. */
+/* Whether a mirror without gloss may show a glossy surface. With --gloss all only transparent surfaces are such mirrors. */
+static bool scene_mirrors_gloss(const struct scene *scene)
+{
+    return scene->plain_mirrors && (!scene->choice->all || scene->clear.size > 0);
+}
+
+/* The base pass needs its second copy only there. */
 static bool has_second_part(const struct scene *scene, enum pass_id id)
 {
-    return pass_table[id].second.copy >= 0 && (id != PASS_BASE || (scene->glossy && scene->plain_mirrors));
+    return pass_table[id].second.copy >= 0 && (id != PASS_BASE || (scene->glossy && scene_mirrors_gloss(scene)));
 }
 
 static struct scene_part first_part(const struct scene *scene, enum pass_id id)

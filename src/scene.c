@@ -143,7 +143,7 @@ static enum result follow_include(struct scene *scene, int index, int token, con
     return RESULT_OK;
 }
 
-/* `X = array[2] { finish {...}, ... }`, at X. */
+/* `X = array[2] { finish {...}, ... }`, at X, with a finish written out in it. */
 static bool is_filled_array(const struct scene_file *file, int name)
 {
     if (!is_mark(file, name + 1, "=") || !is_word(file, name + 2, "array"))
@@ -151,7 +151,10 @@ static bool is_filled_array(const struct scene_file *file, int name)
     int token = name + 3;
     while (is_mark(file, token, "[") || is_mark(file, token, "]") || file->list.tokens[token].kind == TOKEN_NUMBER)
         token++;
-    return is_mark(file, token, "{");
+    bool finish = false;
+    for (int i = token; is_mark(file, token, "{") && i < file->list.tokens[token].match; i++)
+        finish |= is_word(file, i, "finish");
+    return finish;
 }
 
 /* `X = texture {...} texture {...}`, at X. */

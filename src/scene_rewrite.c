@@ -664,9 +664,10 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         *next = 0;
         return write_object(writer, token, last, -1, err);
     }
-    if (rules->places && (value || (file->list.tokens[token].parent < 0 && !argument)) &&
+    bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0;
+    if (rules->places && (named || (!value && file->list.tokens[token].parent < 0 && !argument)) &&
         in_list(file, token, object_words) && tracks(writer, token + 2, last))
-        return write_object(writer, token, last, value ? writer->value_name : -1, err);
+        return write_object(writer, token, last, named ? writer->value_name : -1, err);
     bool filling = fills_array(file, token), pattern = inside_any(file, token, pattern_words);
     bool pigment = is_word(file, token, "pigment") && !pattern;
     if (rules->covers && is_word(file, token, "interior"))
@@ -782,17 +783,17 @@ static enum result write_include(struct writer *writer, int token, struct error 
 }
 
 /* Objects without a texture take the default when they are finished, at the end of the union: it ends before the default
- * changes. A copy without textures needs no default. */
+ * changes. In a copy without textures it matters for none. */
 static enum result write_default(struct writer *writer, int token, int *next, struct error *err)
 {
     const struct scene_file *file = writer->file;
     int last = file->list.tokens[token + 1].match;
     *next = last + 1;
-    if (writer->rules->coded)
-        return copy_to(writer, file->list.tokens[last].end, err);
     bool breaks = writer->rules->in_union && file->list.tokens[token].parent < 0 && !writer->in_macro;
-    enum result result = breaks ? insert_before(writer, token, "povgloss_modifiers() } ", err) : RESULT_OK;
-    if (!result)
+    enum result result = insert_before(writer, token, breaks ? "povgloss_modifiers() } " : "", err);
+    if (!result && file->list.tokens[token].kind == TOKEN_WORD) /* the old form, which is a statement */
+        result = buffer_add_text(&writer->out, "#", err);
+    if (!result && !writer->rules->coded)
         result = write_tokens(writer, token + 1, last, err);
     return result || !breaks ? result : insert_after(writer, last, " union { povgloss_nothing()", err);
 }
@@ -831,7 +832,9 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
             else if (!result && is_directive(file, i, "default") && opens_block(file, i))
                 result = write_default(writer, i, &next, err);
         } else if (file->list.tokens[i].kind == TOKEN_WORD) {
-            if (opens_block(file, i))
+            if (is_word(file, i, "default") && opens_block(file, i))
+                result = write_default(writer, i, &next, err);
+            else if (opens_block(file, i))
                 result = write_block(writer, i, &next, err);
             else if (writer->rules->marks && is_mark(file, i + 1, "{") && in_list(file, i, glossy_words))
                 result = insert_after(writer, i + 1,

@@ -80,15 +80,18 @@ static inline void nest(struct nesting *nesting, const struct scene_file *file, 
     }
 }
 
-/* The token that says what kind of block an opening brace begins: `union {`, `function (x, y) {`, `function 9, 9 {`. */
+/* The token that says what kind of block an opening brace begins: `union {`, `function (x, y) {`, `function 9, 9 {`,
+ * `function W, H {`. */
 static inline int block_keyword(const struct scene_file *file, int brace)
 {
     int token = brace - 1;
     if (is_mark(file, token, ")") && file->list.tokens[token].match > 0)
         token = file->list.tokens[token].match - 1;
-    while (token > 0 && (file->list.tokens[token].kind == TOKEN_NUMBER || is_mark(file, token, ",")))
-        token--;
-    return token;
+    int first = token;
+    while (first > 0 && !is_word(file, first, "function") &&
+           (file->list.tokens[first].kind == TOKEN_NUMBER || is_mark(file, first, ",") || is_mark(file, first + 1, ",")))
+        first--;
+    return is_word(file, first, "function") || is_word(file, --first, "function") ? first : token;
 }
 
 static inline bool inside(const struct scene_file *file, int token, const char *keyword)
