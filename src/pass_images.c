@@ -80,7 +80,7 @@ static enum result read_coded(const struct pass_images *images, enum pass_id hig
     return result;
 }
 
-/* The pass is rendered under a sky of one half of the working space. */
+/* What a glossy surface reflects is one half of the working space. */
 static void scale_reflectance(struct image *reflectance, double gamma)
 {
     for (int channel = 0; channel < 3; channel++)

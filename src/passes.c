@@ -218,6 +218,9 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
         result = text_list_add(arguments, err, "+A0.01");
     if (!result && pass->technical)
         result = text_list_add(arguments, err, "+Q8");
+    static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
+    for (int i = 0; !result && id == PASS_PHOTONS && one_pixel[i]; i++)
+        result = text_list_add(arguments, err, "%s", one_pixel[i]);
     if (!result && options->subsample > 1 && !pass->full_size) {
         result = text_list_add(arguments, err, "+W%d", switches->width / options->subsample);
         if (!result)
@@ -357,6 +360,18 @@ static enum result discover(struct passes *passes, struct error *err)
     return result ? result : scene_settle(&passes->scene, err);
 }
 
+/* Another frame's. */
+static enum result remove_photons(const struct passes *passes, struct error *err)
+{
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s/" PASS_PHOTONS_FILE, passes->folder.path,
+                                     pass_table[PASS_PHOTONS].name);
+    if (!result)
+        remove(path);
+    free(path);
+    return result;
+}
+
 static enum result run_passes(struct passes *passes, int frame, struct error *err)
 {
     const struct passes_options *options = passes->options;
@@ -371,9 +386,16 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
             .name = pass_table[passes->ids[i]].name, .folder = folders[i], .arguments = arguments[i].texts};
     }
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
-    if (!result)
-        result = povray_run(passes->jobs, passes->job_count, at_once, passes->environment, options->progress,
-                            options->progress_context, &failed, err);
+    int first = passes->ids[0] == PASS_PHOTONS; /* the others wait for it */
+    if (!result && first)
+        result = remove_photons(passes, err);
+    if (!result && first)
+        result = povray_run(passes->jobs, 1, 1, passes->environment, no_progress, NULL, &failed, err);
+    if (!result) {
+        result = povray_run(passes->jobs + first, passes->job_count - first, at_once, passes->environment,
+                            options->progress, options->progress_context, &failed, err);
+        failed += failed >= 0 ? first : 0;
+    }
     if (failed >= 0)
         result = report_failure(passes, &passes->jobs[failed], err);
     povray_jobs_free(passes->jobs, passes->job_count);

@@ -192,6 +192,8 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
         scene->mixes = true;
     if (is_word(file, token, "aperture"))
         scene->focal_blur = true;
+    if (shoots_photons(file, token))
+        scene->photons = true;
     if (is_word(file, token, "assumed_gamma"))
         return note_gamma(scene, file, token, err);
     bool own = !strcmp(base_name(file->path), "povgloss.inc");

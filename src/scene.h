@@ -49,6 +49,7 @@ struct scene {
     double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
     int gammas;            /* how often an assumed_gamma is written anywhere */
     bool focal_blur;        /* some camera has an aperture */
+    bool photons;           /* its global_settings may shoot photons */
     const char *atmosphere; /* "fog", "rainbow" or "media" where the scene has one at top level, else NULL */
 };
 
