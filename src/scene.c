@@ -188,6 +188,9 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
         scene->plain_mirrors = true;
     if (in_list(file, token, highlight_words))
         scene->highlights = true;
+    if (in_list(file, token, glossy_words) && opens_block(file, token) && is_mark(file, token + 3, "[") &&
+        tokens[token + 2].kind == TOKEN_WORD)
+        return add_name(&scene->surface_arrays, file, token + 2, err);
     if (in_list(file, token, mixing_words))
         scene->mixes = true;
     if (is_word(file, token, "aperture"))
@@ -436,6 +439,7 @@ void scene_free(struct scene *scene)
     buffer_free(&scene->names);
     buffer_free(&scene->lights);
     buffer_free(&scene->arrays);
+    buffer_free(&scene->surface_arrays);
     buffer_free(&scene->layered);
     buffer_free(&scene->glossable);
     buffer_free(&scene->clear);

@@ -35,7 +35,8 @@ struct scene {
     bool needs_discovery;  /* its includes or its assumed_gamma are known to POV-Ray only: scene_discover */
     struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
     struct buffer lights;  /* in the same form: names that were declared as a light_source, */
-    struct buffer arrays;  /* as an array filled in its declaration, */
+    struct buffer arrays;  /* as an array filled in its declaration, with a finish written out in it, */
+    struct buffer surface_arrays; /* as an array whose elements textures, finishes or materials begin with, */
     struct buffer layered; /* as a texture of several layers, */
     struct buffer glossable; /* as a finish, texture or material, */
     struct buffer clear;     /* as something that may be transparent, */
