@@ -393,7 +393,7 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
 
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
-    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes)
+    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
         return false;
     return id == PASS_BASE || scene->glossy;
 }

@@ -191,6 +191,8 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
     if (in_list(file, token, glossy_words) && opens_block(file, token) && is_mark(file, token + 3, "[") &&
         tokens[token + 2].kind == TOKEN_WORD)
         return add_name(&scene->surface_arrays, file, token + 2, err);
+    if (is_word(file, token, "ior"))
+        scene->refracts = true;
     if (in_list(file, token, mixing_words))
         scene->mixes = true;
     if (is_word(file, token, "aperture"))
