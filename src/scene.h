@@ -45,9 +45,10 @@ struct scene {
     double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
     bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
     bool mixes;            /* some texture may mix others: a map, an average, a blob, a mesh with a texture at each corner */
+    bool radiosity;        /* light that a mirror throws onto other things may be computed */
     bool refracts;         /* something has an index of refraction */
     bool highlights;       /* some finish names the size of a highlight */
-    double version;        /* of a #version that opens the scene; 0: none */
+    double version;        /* of the scene's first #version; 0: none */
     double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
     int gammas;            /* how often an assumed_gamma is written anywhere */
     bool focal_blur;        /* some camera has an aperture */

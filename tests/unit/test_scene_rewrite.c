@@ -875,7 +875,7 @@ static void load__version__of_the_first_directive(void **state)
         const char *text;
         double version;
     } cases[] = {
-        {"#version 3.7;", 3.7},         {"// c\n/* d */ #version 3.6;", 3.6}, {"sphere { 0, 1 } #version 3.7;", 0},
+        {"#version 3.7;", 3.7},         {"// c\n/* d */ #version 3.6;", 3.6}, {"sphere { 0, 1 } #version 3.7;", 3.7},
         {"#version unofficial 3.7;", 0}, {"", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
