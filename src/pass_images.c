@@ -125,12 +125,28 @@ static bool any_nonzero(const struct image *image, int x, int y)
     return any;
 }
 
+/* A total reflection in something transparent isn't of a glossy finish: it shows the exponent pass's white sky undimmed. */
+static bool is_total_reflection(const struct image *codes, int x, int y)
+{
+    return codes->pixels && image_row(codes, 2, y)[x] > LEAST_SHARE &&
+           image_row(codes, 0, y)[x] > 0.95f * image_row(codes, 2, y)[x];
+}
+
+static void clear_total_reflections(struct image *reflectance, const struct image *codes)
+{
+    for (int y = 0; same_size(reflectance, codes) && y < codes->height; y++)
+        for (int x = 0; x < codes->width; x++)
+            for (int channel = 0; is_total_reflection(codes, x, y) && channel < 3; channel++)
+                image_row(reflectance, channel, y)[x] = 0;
+}
+
 /* phong: 0 where the camera sees nothing glossy. */
 static void fill_exponents(struct gbuffer *gbuffer, double single, const struct image *codes)
 {
     for (int y = 0; y < gbuffer->phong.height; y++)
         for (int x = 0; x < gbuffer->phong.width; x++) {
-            bool glossy = any_nonzero(&gbuffer->position, x, y) && any_nonzero(&gbuffer->endpoint, x, y);
+            bool glossy = any_nonzero(&gbuffer->position, x, y) && any_nonzero(&gbuffer->endpoint, x, y) &&
+                          !is_total_reflection(codes, x, y);
             float exponent = 0;
             double share = codes->pixels ? (double)image_row(codes, 2, y)[x] : 1;
             if (glossy && single >= 0)
@@ -285,6 +301,7 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         fill_exponents(gbuffer, images->scene->exponent, &codes);
         unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
         scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
+        clear_total_reflections(&gbuffer->reflectance, &codes);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
         eye_find(gbuffer, &directions);
         clear_unused(gbuffer);

@@ -244,15 +244,19 @@ static enum result write_statement(struct writer *writer, int token, int last, s
 }
 
 /* A finish or texture that begins with a declared name takes over that one's state (pass_scene.c), which is kept in a
- * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows), by the macro. */
+ * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows), by the macro; for an
+ * element of an array it is in an array of the same size. */
 static enum result inherit_state(struct writer *writer, int token, const char *macro, struct error *err)
 {
-    int name = find_name(&writer->scene->names, writer->file, token);
-    if (name < 0 || is_mark(writer->file, token + 1, "["))
+    const struct scene_file *file = writer->file;
+    int name = find_name(&writer->scene->names, file, token), end = after_subscripts(file, token + 1);
+    if (name < 0 || (end > token + 1 && find_name(&writer->scene->surface_arrays, file, token) < 0))
         return RESULT_OK;
-    enum result result = copy_to(writer, writer->file->list.tokens[token].end, err);
+    size_t begin = file->list.tokens[token].end, size = file->list.tokens[end - 1].end - begin;
+    enum result result = copy_to(writer, begin + size, err);
     return result ? result
-                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) %s(povgloss_of_%d) #end", name, macro, name);
+                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d%.*s) %s(povgloss_of_%d%.*s) #end", name, (int)size,
+                                  file->source.data + begin, macro, name, (int)size, file->source.data + begin);
 }
 
 /* A pigment inside one of these is a pattern or a value, not what an object looks like. */
@@ -387,18 +391,59 @@ static enum result write_texture(struct writer *writer, int token, int last, boo
 /* After `#declare X = finish {...}` or the last layer of `#declare X = texture {...}`: remembers the state of X. */
 static enum result remember(struct writer *writer, int name_token, int last, struct error *err)
 {
-    int name = find_name(&writer->scene->names, writer->file, name_token), end = last + is_mark(writer->file, last + 1, ";");
-    if (name < 0 || is_word(writer->file, last + 1, "texture"))
+    const struct scene_file *file = writer->file;
+    int name = find_name(&writer->scene->names, file, name_token), end = last + is_mark(file, last + 1, ";");
+    int subscripts = after_subscripts(file, name_token + 1);
+    bool element = subscripts > name_token + 1;
+    if (name < 0 || is_word(file, last + 1, "texture") ||
+        (element && find_name(&writer->scene->surface_arrays, file, name_token) < 0))
         return RESULT_OK;
-    const char *declare = is_directive(writer->file, name_token - 1, "local") ? "#local" : "#declare";
-    enum result result = copy_to(writer, writer->file->list.tokens[end].end, err);
+    size_t begin = file->list.tokens[name_token].end, size = file->list.tokens[subscripts - 1].end - begin;
+    const char *declare = is_directive(file, name_token - 1, "local") ? "#local" : "#declare";
+    enum result result = copy_to(writer, file->list.tokens[end].end, err);
     if (!result)
-        result = buffer_printf(&writer->out, err, " %s povgloss_of_%d = povgloss_last; ", declare, name);
-    if (!result && writer->rules->coded)
+        result = buffer_printf(&writer->out, err, " %s povgloss_of_%d%.*s = povgloss_last; ", declare, name, (int)size,
+                               file->source.data + begin);
+    if (!result && writer->rules->coded && !element)
         result = buffer_printf(&writer->out, err,
                                " #ifdef (povgloss_interior) %s povgloss_interior_of_%d = interior { povgloss_interior } "
                                "#end ",
                                declare, name);
+    return result;
+}
+
+/* `#declare A = array[9] { T, texture { U } }`: A gets an array of states, with those of the elements that are or begin with
+ * a name. */
+static enum result declare_states(struct writer *writer, int directive, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int name = declared_name(file, directive), index = 0;
+    if (name < 0 || !is_mark(file, name + 1, "=") || !is_word(file, name + 2, "array") ||
+        find_name(&writer->scene->surface_arrays, file, name) < 0)
+        return RESULT_OK;
+    int brace = after_subscripts(file, name + 3), array = find_name(&writer->scene->names, file, name);
+    const struct token *tokens = file->list.tokens;
+    const char *declare = is_directive(file, directive, "local") ? "#local" : "#declare";
+    enum result result = insert_before(writer, directive, "", err);
+    if (!result)
+        result = buffer_printf(&writer->out, err, "%s povgloss_of_%d = array%.*s ", declare, array,
+                               (int)(tokens[brace - 1].end - tokens[name + 2].end), file->source.data + tokens[name + 2].end);
+    if (result || !is_mark(file, brace, "{") || tokens[brace].match < 0)
+        return result;
+    result = write_tokens(writer, brace + 1, tokens[brace].match, err);
+    *next = tokens[brace].match + 1 + is_mark(file, tokens[brace].match + 1, ";");
+    if (!result)
+        result = insert_after(writer, *next - 1, "", err);
+    for (int i = brace + 1; !result && i < tokens[brace].match; index++) {
+        int first = in_list(file, i, glossy_words) && opens_block(file, i) ? i + 2 : i;
+        int element = is_mark(file, first + 1, "[") ? -1 : find_name(&writer->scene->names, file, first);
+        if (element >= 0)
+            result = buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) %s povgloss_of_%d[%d] = povgloss_of_%d; #end ",
+                                   element, declare, array, index, element);
+        while (i < tokens[brace].match && !is_mark(file, i, ","))
+            i = tokens[i].match > i ? tokens[i].match : i + 1;
+        i++;
+    }
     return result;
 }
 
@@ -532,6 +577,13 @@ static const struct gloss_name *find_choice(const struct writer *writer, int nam
     return NULL;
 }
 
+/* Whether what uses the name finds its state beside it. */
+static bool keeps_state(const struct writer *writer, int name)
+{
+    bool element = name >= 0 && is_mark(writer->file, name + 1, "[");
+    return find_name(element ? &writer->scene->surface_arrays : &writer->scene->names, writer->file, name) >= 0;
+}
+
 /* A finish, texture or material; `name` is that of its declaration, or -1. */
 static enum result write_marked(struct writer *writer, int token, int last, int name, struct error *err)
 {
@@ -546,7 +598,7 @@ static enum result write_marked(struct writer *writer, int token, int last, int 
     }
     bool finish = is_word(file, token, "finish"), material = is_word(file, token, "material");
     if (!result)
-        result = finish     ? write_finish(writer, token, last, find_name(&writer->scene->names, file, name) >= 0, err)
+        result = finish     ? write_finish(writer, token, last, keeps_state(writer, name), err)
                  : material ? write_material(writer, token, last, err)
                             : write_texture(writer, token, last, is_layer(file, token), err);
     if (!result && choice) {
@@ -737,7 +789,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     bool argument = is_mark(file, token - 1, "(") || is_mark(file, token - 1, ",");
     bool value = is_mark(file, token - 1, "=") || (token == writer->value_end && is_word(file, token, "texture"));
     if (is_mark(file, token - 1, "="))
-        writer->value_name = token - 2;
+        writer->value_name = before_subscripts(file, token - 2);
     if (value)
         writer->value_end = last + 1;
     *next = last + 1;
@@ -752,7 +804,8 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         *next = 0;
         return write_object(writer, token, last, -1, err);
     }
-    bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0;
+    bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0 &&
+                 !is_mark(file, writer->value_name + 1, "[");
     if (rules->places && (named || (!value && file->list.tokens[token].parent < 0 && !argument)) &&
         in_list(file, token, object_words) && tracks(writer, token + 2, last))
         return write_object(writer, token, last, named ? writer->value_name : -1, err);
@@ -913,6 +966,8 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
             track_directive(writer, i);
             if (writer->rules->marks || writer->rules->coded)
                 result = copy_state(writer, i, err);
+            if (!result && (writer->rules->marks || writer->rules->coded))
+                result = declare_states(writer, i, &next, err);
             if (!result && is_directive(file, i, "include"))
                 result = write_include(writer, i + 1, err);
             else if (!result && is_directive(file, i, "fopen") && writer->rules->discovery)

@@ -80,6 +80,28 @@ static inline void nest(struct nesting *nesting, const struct scene_file *file, 
     }
 }
 
+/* The token after the subscripts `[...][...]` that begin at `token`. */
+static inline int after_subscripts(const struct scene_file *file, int token)
+{
+    for (int depth = 0; token < file->list.count - 1; token++) {
+        depth += is_mark(file, token, "[");
+        if (depth == 0)
+            break;
+        depth -= is_mark(file, token, "]");
+    }
+    return token;
+}
+
+/* The name before the subscripts that end at `token`, or `token` itself where there are none. */
+static inline int before_subscripts(const struct scene_file *file, int token)
+{
+    for (int depth = 0; token > 0 && (depth > 0 || is_mark(file, token, "]")); token--) {
+        depth += is_mark(file, token, "]");
+        depth -= is_mark(file, token, "[");
+    }
+    return token;
+}
+
 /* The token that says what kind of block an opening brace begins: `union {`, `function (x, y) {`, `function 9, 9 {`,
  * `function W, H {`. */
 static inline int block_keyword(const struct scene_file *file, int brace)

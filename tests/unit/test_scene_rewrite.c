@@ -203,9 +203,10 @@ static void coded__declared_textures__stay_with_their_layers(void **state)
         {CODED, "#local M = 1; camera { #if (1) #local M = 2; #end }", "#declare M = 1; povgloss_modifiers() } camera { #if (1) "
                 "#declare M = 2; #end } union { povgloss_nothing()"},
         {CODED, "#declare A[0] = texture { T }", NULL},
-        {CODED, "#default { texture { pigment { rgb 1 } } }", NULL},
+        {CODED, "#default { texture { pigment { rgb 1 } } }",
+         "povgloss_modifiers() } #default { texture { pigment { rgb 1 } } } union { povgloss_nothing()"},
         {CODED, "# default { finish { ambient 0 } } sphere { 0, 1 pigment { P } }",
-         "# default { finish { ambient 0 } } sphere { 0, 1 transform {} }"},
+         "povgloss_modifiers() } # default { finish { ambient 0 } } union { povgloss_nothing() sphere { 0, 1 transform {} }"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -377,8 +378,9 @@ static void copy__arrays_of_textures__take_no_directives(void **state)
         {MIRROR, "#declare F = array[2] { finish { reflection 1 }, finish { diffuse 1 } }", NULL},
         {CODED, "#declare F = array[1] { texture { pigment { P } } }", NULL},
         {BASE, "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { F[0] } }",
-         "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { povgloss_begin(povgloss_none) "
-         "#declare povgloss_reflects = 1; F[0] povgloss_end() } }"},
+         "#declare povgloss_of_0 = array[1] #declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { "
+         "povgloss_begin(povgloss_none) F[0] #ifdef (povgloss_of_0[0]) povgloss_of_finish(povgloss_of_0[0]) #end "
+         "#declare povgloss_reflects = 1; povgloss_end() } }"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -917,7 +919,7 @@ static void load__version__of_the_first_directive(void **state)
         const char *text;
         double version;
     } cases[] = {
-        {"#version 3.7;", 3.7},         {"// c\n/* d */ #version 3.6;", 3.6}, {"sphere { 0, 1 } #version 3.7;", 0},
+        {"#version 3.7;", 3.7},         {"// c\n/* d */ #version 3.6;", 3.6}, {"sphere { 0, 1 } #version 3.7;", 3.7},
         {"#version unofficial 3.7;", 0}, {"", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
