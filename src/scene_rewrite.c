@@ -284,18 +284,24 @@ static bool tracks(const struct writer *writer, int first, int last)
     return asked && may_be_clear(writer->file, first, last);
 }
 
-/* The pigment before the block at `token` in the same braces whose transparency is tracked, or -1. */
-static int covered_sibling(const struct writer *writer, int token)
+/* The last block `keyword { ... }` before `token` in the same braces, or -1. */
+static int sibling_before(const struct scene_file *file, int token, const char *keyword)
 {
-    const struct scene_file *file = writer->file;
     int parent = file->list.tokens[token].parent;
     for (int i = token - 1; i > parent && i > 0; i--) {
         if (is_mark(file, i, "}") && file->list.tokens[i].match > 0)
             i = file->list.tokens[i].match - 1;
-        if (is_word(file, i, "pigment") && opens_block(file, i))
-            return tracks(writer, i + 2, file->list.tokens[i + 1].match) ? i : -1;
+        if (is_word(file, i, keyword) && opens_block(file, i))
+            return i;
     }
     return -1;
+}
+
+/* The pigment before the block at `token` in the same braces whose transparency is tracked, or -1. */
+static int covered_sibling(const struct writer *writer, int token)
+{
+    int pigment = sibling_before(writer->file, token, "pigment");
+    return pigment >= 0 && tracks(writer, pigment + 2, writer->file->list.tokens[pigment + 1].match) ? pigment : -1;
 }
 
 /* A pigment that may be transparent is declared first, so that POV-Ray can say where it is. */
@@ -691,6 +697,88 @@ static enum result write_coded(struct writer *writer, int token, int last, int *
     return result || texture ? result : buffer_add_text(&writer->out, "povgloss_coded_interior() ", err);
 }
 
+/* Leaves out the values, textures and commas of a mesh from `first` up to the next vector, which is *next, or to `end`.
+ * Values with effects are declared; `after` ends that: POV-Ray wants a semicolon after a number and takes none after what
+ * a macro leaves of a texture. */
+static enum result drop_items(struct writer *writer, int first, int end, const char *after, int *next,
+                              struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    enum result result = RESULT_OK;
+    int item = first, item_end;
+    for (; !result && item < end && !is_mark(file, item, "<"); item = item_end) {
+        if (is_directive(file, item, "include"))
+            return error_set(err, RESULT_DATA,
+                             "%s:%d: the textures of a mesh come from a file of their own, which can't be taken: "
+                             "include the whole mesh instead",
+                             file->path, file->list.tokens[item].line);
+        if (file->list.tokens[item].kind == TOKEN_DIRECTIVE) {
+            item_end = directive_end(file, item, end);
+            result = write_tokens(writer, item, item_end, err);
+        } else if (opens_block(file, item)) {
+            item_end = file->list.tokens[item + 1].match + 1;
+            result = replace_block(writer, item, item_end - 1, "", err);
+        } else {
+            item_end = value_before(file, item, end);
+            bool value = item_end > item, effects = value && has_effects(writer, item, item_end - 1);
+            item_end += !value;
+            result = effects ? insert_before(writer, item, "#declare povgloss_dropped = ", err)
+                             : replace(writer, item, item_end - 1, "", err);
+            if (!result && effects)
+                result = insert_after(writer, item_end - 1, after, err);
+        }
+    }
+    *next = item;
+    return result;
+}
+
+static int skip_directives(const struct scene_file *file, int token, int end)
+{
+    while (token < end && file->list.tokens[token].kind == TOKEN_DIRECTIVE && !is_directive(file, token, "include"))
+        token = directive_end(file, token, end);
+    return token;
+}
+
+/* Without its texture_list a mesh takes no texture numbers after its faces: `face_indices { N, <a, b, c>, 0, ... }`. */
+static enum result write_faces(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int parent = file->list.tokens[token].parent;
+    int face = value_before(file, skip_directives(file, token + 2, last), last);
+    bool textured = sibling_before(file, token, "texture_list") >= 0, unknown = !inside(file, token, "mesh2");
+    for (int i = token; !unknown && i > parent; i--)
+        unknown = is_directive(file, i, "include");
+    face = skip_directives(file, face + is_mark(file, face, ","), last);
+    bool plain = face >= last || is_mark(file, face, "<");
+    if (textured && !plain)
+        return error_set(err, RESULT_DATA,
+                         "%s:%d: the faces of this mesh2 can't be told from the numbers of their textures: write each "
+                         "as <a, b, c>, in these braces",
+                         file->path, file->list.tokens[face].line);
+    bool strips = plain && (textured || unknown);
+    enum result result = write_tokens(writer, token + 2, strips ? face : last, err);
+    while (!result && strips && face < last) {
+        int face_end = value_before(file, face, last);
+        result = drop_items(writer, face_end + is_mark(file, face_end, ","), last, "; ", &face, err);
+    }
+    return result ? result : copy_to(writer, file->list.tokens[last].end, err);
+}
+
+/* The list of a mesh2 holds a number and textures, that of a triangle the names of three. */
+static enum result write_texture_list(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int first = token + 2, count_end = first;
+    if (!in_triangle(file, token))
+        count_end = value_before(file, skip_directives(file, first, last), last);
+    enum result result = replace(writer, token, token + 1, "", err);
+    if (!result)
+        result = drop_items(writer, first, count_end, "; ", &first, err);
+    if (!result)
+        result = drop_items(writer, first, last, " ", &first, err);
+    return result ? result : replace(writer, last, last, "", err);
+}
+
 /* Writes the block `keyword { ... }` whose keyword is at `token` if it is changed by the rules; *next is then the token
  * after it, else 0. */
 static enum result write_block(struct writer *writer, int token, int *next, struct error *err)
@@ -744,9 +832,9 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     if (rules->pigments && pigment && !value)
         return replace_block(writer, token, last, "pigment { povgloss_pigment }", err);
     if (rules->coded && is_word(file, token, "texture_list"))
-        return error_set(err, RESULT_DATA,
-                         "%s:%d: a mesh2 with a texture_list can't be taken yet: split it into one mesh for each texture",
-                         file->path, file->list.tokens[token].line);
+        return write_texture_list(writer, token, last, err);
+    if (rules->coded && is_word(file, token, "face_indices"))
+        return write_faces(writer, token, last, err);
     if (rules->coded && in_list(file, token, texture_words))
         return value || argument || filling || pattern || inside_any(file, token, surface_words)
                    ? write_coded_value(writer, token, last, value ? writer->value_name : -1, err)

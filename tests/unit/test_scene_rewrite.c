@@ -481,19 +481,63 @@ static void copy__interiors__neither_media_nor_fading(void **state)
     ASSERT_REWRITINGS(cases);
 }
 
-static void coded__texture_list__refused_with_file_and_line(void **state)
+static void coded__texture_list__gone_with_its_indices(void **state)
 {
     (void)state;
+    static const struct rewriting cases[] = {
+        {CODED, "mesh2 { texture_list { 2, texture { A },\ntexture { B } } face_indices { 2, <0, 1, 2>, 0,\n<0, 2, 3>, 1 } }",
+         "mesh2 { \n face_indices { 2, <0, 1, 2>, \n<0, 2, 3>, } }"},
+        {CODED, "mesh2 { texture_list { 1 texture { A } } face_indices { 2 <0, 1, 2> 0, 1, 2 <0, 2, 3>, 1, 1, 1, } }",
+         "mesh2 { face_indices { 2 <0, 1, 2> <0, 2, 3>, } }"},
+        {CODED,
+         "mesh2 { texture_list { #for (I, 1, N) texture { T[I] } #end } face_indices { N, #while (I < N) <I, (I > 2 ? 0 : 1), J> + "
+         "K, mod(I, 2) #declare I = I + 1; #end } }",
+         "mesh2 { #for (I, 1, N) #end face_indices { N, #while (I < N) <I, (I > 2 ? 0 : 1), J> + K, #declare I = I + 1; #end } }"},
+        {CODED, "mesh2 { texture_list { 1, texture { A } } face_indices { 1, <0, 1, 2>, floor(rand(R)*2) } }",
+         "mesh2 { face_indices { 1, <0, 1, 2>, #declare povgloss_dropped = floor(rand(R)*2); } }"},
+        {CODED, "#macro M(I)\n#end mesh2 { texture_list { M(1), M(2), M(3) } }",
+         "#macro M(I)\n#end mesh2 { #declare povgloss_dropped = M(1); #declare povgloss_dropped = M(2) #declare "
+         "povgloss_dropped = M(3) }"},
+        {CODED, "triangle { A, B, C texture_list { T, U[0] V } }", "triangle { A, B, C }"},
+        {CODED, "mesh2 { texture_list { 1, texture { A } } face_indices { 1, #debug \"x\" <0, 1, 2>, 0 #macro M() 1 #end "
+                "#declare S = array[2] {1, 2}; #if (1) #declare J = K + 1 #end #declare } }",
+         "mesh2 { face_indices { 1, #debug \"x\" <0, 1, 2>, #macro M() 1 #end "
+         "#declare S = array[2] {1, 2}; #if (1) #declare J = K + 1 #end #declare } }"},
+        {CODED, "#macro M() mesh2 { face_indices { 1, <0, 1, 2> #for (I, 1, 2) , <I, 1, 2> #end } } #end media { M }",
+         "#macro M() mesh2 { face_indices { 1, <0, 1, 2> #for (I, 1, 2) , <I, 1, 2> #end } } #end "},
+        {CODED, "mesh2 { face_indices { 1, F(0), 0 } uv_indices { 1, <0, 1, 2> } }", NULL},
+        {CODED, "mesh2 { face_indices { 1, <0, 1, 2>, F(0) } }", NULL},
+        {CODED, "mesh2 { #include \"vertices.inc\" face_indices { 1, <0, 1, 2>, 0 } }",
+         "mesh2 { #include \"vertices.inc\" face_indices { 1, <0, 1, 2>, } }"},
+        {CODED, "face_indices { 1, <0, 1, 2>, 0 }", "face_indices { 1, <0, 1, 2>, }"},
+        {PLAIN, "mesh2 { texture_list { 1, texture { A } } face_indices { 1, <0, 1, 2>, 0 } }", NULL},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+/* The message of a copy of a scene without textures that is refused names its third line. */
+static void assert_copy_refused(const char *source, const char *what)
+{
     struct scene scene;
     struct error err;
     char message[128];
-    load_text(&scene, "\nmesh2 {\n  texture_list { 1, texture { T } }\n}");
+    load_text(&scene, source);
     assert_int_equal(scene_write_copy(&scene, SCENE_COPY_CODED, scratch, &err), RESULT_DATA);
     snprintf(message, sizeof message, "%s/scene.pov:3: ", scratch);
     assert_memory_equal(err.text, message, strlen(message));
-    assert_contains(err.text, "texture_list");
+    assert_contains(err.text, what);
     assert_ok(scene_write_copy(&scene, SCENE_COPY_PLAIN, scratch, &err), err);
     scene_free(&scene);
+}
+
+static void coded__faces_by_macro_or_include__refused_with_file_and_line(void **state)
+{
+    (void)state;
+    assert_copy_refused("mesh2 { texture_list { 1, texture { A } }\nface_indices { 1,\nF(0) } }", "faces");
+    assert_copy_refused("mesh2 { texture_list { 1, texture { A } }\nface_indices { 1,\n#include \"faces.inc\" } }", "faces");
+    assert_copy_refused("mesh2 { texture_list { 1, texture { A } } face_indices { 2,\n<0, 1, 2>, 0\n#include \"faces.inc\" } }",
+                   "include");
+    assert_copy_refused("mesh2 {\ntexture_list { 1,\n#include \"textures.inc\" } }", "include");
 }
 
 static void copy__byte_order_mark__gone(void **state)
@@ -1299,7 +1343,8 @@ int main(void)
         cmocka_unit_test(base__transparent_objects_of_the_top_level__placed_by_povray),
         cmocka_unit_test(copy__declared_layers__declared_one_by_one),
         cmocka_unit_test(copy__interiors__neither_media_nor_fading),
-        cmocka_unit_test(coded__texture_list__refused_with_file_and_line),
+        cmocka_unit_test(coded__texture_list__gone_with_its_indices),
+        cmocka_unit_test(coded__faces_by_macro_or_include__refused_with_file_and_line),
         cmocka_unit_test(copy__byte_order_mark__gone),
         cmocka_unit_test(copy__line_ends_of_dos_and_old_macs__kept),
         cmocka_unit_test(copy__what_no_scene_has__no_crash),
