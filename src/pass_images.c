@@ -125,12 +125,20 @@ static bool any_nonzero(const struct image *image, int x, int y)
     return any;
 }
 
+/* A total reflection in something transparent isn't of a glossy finish: it shows the exponent pass's white sky undimmed. */
+static bool is_total_reflection(const struct image *codes, int x, int y)
+{
+    return codes->pixels && image_row(codes, 2, y)[x] > LEAST_SHARE &&
+           image_row(codes, 0, y)[x] > 0.95f * image_row(codes, 2, y)[x];
+}
+
 /* phong: 0 where the camera sees nothing glossy. */
 static void fill_exponents(struct gbuffer *gbuffer, double single, const struct image *codes)
 {
     for (int y = 0; y < gbuffer->phong.height; y++)
         for (int x = 0; x < gbuffer->phong.width; x++) {
-            bool glossy = any_nonzero(&gbuffer->position, x, y) && any_nonzero(&gbuffer->endpoint, x, y);
+            bool glossy = any_nonzero(&gbuffer->position, x, y) && any_nonzero(&gbuffer->endpoint, x, y) &&
+                          !is_total_reflection(codes, x, y);
             float exponent = 0;
             double share = codes->pixels ? (double)image_row(codes, 2, y)[x] : 1;
             if (glossy && single >= 0)

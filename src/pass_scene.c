@@ -332,10 +332,10 @@ static bool scene_mirrors_gloss(const struct scene *scene)
     return scene->plain_mirrors && (!scene->choice->all || scene->clear.size > 0);
 }
 
-/* The base pass needs its second copy only there. */
+/* The base pass needs its second copy only there, and where the light counts that a glossy surface throws onto others. */
 static bool has_second_part(const struct scene *scene, enum pass_id id)
 {
-    return pass_table[id].second.copy >= 0 && (id != PASS_BASE || (scene->glossy && scene_mirrors_gloss(scene)));
+    return pass_table[id].second.copy >= 0 && (id != PASS_BASE || (scene->glossy && (scene_mirrors_gloss(scene) || scene->radiosity)));
 }
 
 static struct scene_part first_part(const struct scene *scene, enum pass_id id)
@@ -412,7 +412,7 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
 
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
-    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes)
+    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
         return false;
     return id == PASS_BASE || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }

@@ -50,7 +50,8 @@ struct pass {
 extern const struct pass pass_table[PASS_COUNT];
 
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some;
- * exponents where there are several, or where a texture may mix a glossy surface with another one. */
+ * exponents where there are several, where a texture may mix a glossy surface with another one, or where a total reflection
+ * may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Marks the kinds of copies that the pass includes. */

@@ -166,6 +166,20 @@ static bool is_layered(const struct scene_file *file, int name)
 
 static const char *const mixing_words[] = {"texture_map", "average", "blob", "texture_list", "smooth_triangle", NULL};
 
+/* `#for (X, 1, 9)` and `#read (File, X, Y)` declare, too. */
+static enum result note_variables(struct scene *scene, const struct scene_file *file, int token, struct error *err)
+{
+    bool loop = is_directive(file, token, "for");
+    if ((!loop && !is_directive(file, token, "read")) || !is_mark(file, token + 1, "("))
+        return RESULT_OK;
+    int last = loop ? token + 3 : file->list.tokens[token + 1].match;
+    enum result result = RESULT_OK;
+    for (int i = token + 2; !result && i < last; i++)
+        if (file->list.tokens[i].kind == TOKEN_WORD && (is_mark(file, i + 1, ",") || is_mark(file, i + 1, ")")))
+            result = add_name(&scene->names, file, i, err);
+    return result;
+}
+
 static enum result note_token(struct scene *scene, int index, int token, struct error *err)
 {
     const struct scene_file *file = &scene->files[index];
@@ -184,10 +198,20 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
             result = add_name(&scene->glossable, file, name, err);
         return result;
     }
+    enum result variables = note_variables(scene, file, token, err);
+    if (variables)
+        return variables;
     if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
         scene->plain_mirrors = true;
     if (in_list(file, token, highlight_words))
         scene->highlights = true;
+    if (in_list(file, token, glossy_words) && opens_block(file, token) && is_mark(file, token + 3, "[") &&
+        tokens[token + 2].kind == TOKEN_WORD)
+        return add_name(&scene->surface_arrays, file, token + 2, err);
+    if (is_word(file, token, "radiosity") && opens_block(file, token))
+        scene->radiosity = true;
+    if (is_word(file, token, "ior"))
+        scene->refracts = true;
     if (in_list(file, token, mixing_words))
         scene->mixes = true;
     if (is_word(file, token, "aperture"))
@@ -414,8 +438,9 @@ enum result scene_load(struct scene *scene, const char *path, const struct gloss
     if (result)
         return result;
     const struct scene_file *main_file = &scene->files[0];
-    if (is_directive(main_file, 0, "version") && main_file->list.tokens[1].kind == TOKEN_NUMBER)
-        scene->version = number_value(main_file, 1);
+    for (int token = 0; scene->version == 0 && token < main_file->list.count - 1; token++)
+        if (is_directive(main_file, token, "version") && main_file->list.tokens[token + 1].kind == TOKEN_NUMBER)
+            scene->version = number_value(main_file, token + 1);
     if (scene->gammas == 0)
         scene->working_gamma = scene_default_gamma(scene);
     result = note_unknown_includes(scene, err);
@@ -438,6 +463,7 @@ void scene_free(struct scene *scene)
     buffer_free(&scene->names);
     buffer_free(&scene->lights);
     buffer_free(&scene->arrays);
+    buffer_free(&scene->surface_arrays);
     buffer_free(&scene->layered);
     buffer_free(&scene->glossable);
     buffer_free(&scene->clear);

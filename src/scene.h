@@ -35,7 +35,8 @@ struct scene {
     bool needs_discovery;  /* its includes or its assumed_gamma are known to POV-Ray only: scene_discover */
     struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
     struct buffer lights;  /* in the same form: names that were declared as a light_source, */
-    struct buffer arrays;  /* as an array filled in its declaration, */
+    struct buffer arrays;  /* as an array filled in its declaration, with a finish written out in it, */
+    struct buffer surface_arrays; /* as an array whose elements textures, finishes or materials begin with, */
     struct buffer layered; /* as a texture of several layers, */
     struct buffer glossable; /* as a finish, texture or material, */
     struct buffer clear;     /* as something that may be transparent, */
@@ -44,8 +45,10 @@ struct scene {
     double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
     bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
     bool mixes;            /* some texture may mix others: a map, an average, a blob, a mesh with a texture at each corner */
+    bool radiosity;        /* light that a mirror throws onto other things may be computed */
+    bool refracts;         /* something has an index of refraction */
     bool highlights;       /* some finish names the size of a highlight */
-    double version;        /* of a #version that opens the scene; 0: none */
+    double version;        /* of the scene's first #version; 0: none */
     double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
     int gammas;            /* how often an assumed_gamma is written anywhere */
     bool focal_blur;        /* some camera has an aperture */

@@ -246,15 +246,19 @@ static enum result write_statement(struct writer *writer, int token, int last, s
 }
 
 /* A finish or texture that begins with a declared name takes over that one's state (pass_scene.c), which is kept in a
- * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows), by the macro. */
+ * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows), by the macro; for an
+ * element of an array it is in an array of the same size. */
 static enum result inherit_state(struct writer *writer, int token, const char *macro, struct error *err)
 {
-    int name = find_name(&writer->scene->names, writer->file, token);
-    if (name < 0 || is_mark(writer->file, token + 1, "["))
+    const struct scene_file *file = writer->file;
+    int name = find_name(&writer->scene->names, file, token), end = after_subscripts(file, token + 1);
+    if (name < 0 || (end > token + 1 && find_name(&writer->scene->surface_arrays, file, token) < 0))
         return RESULT_OK;
-    enum result result = copy_to(writer, writer->file->list.tokens[token].end, err);
+    size_t begin = file->list.tokens[token].end, size = file->list.tokens[end - 1].end - begin;
+    enum result result = copy_to(writer, begin + size, err);
     return result ? result
-                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) %s(povgloss_of_%d) #end", name, macro, name);
+                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d%.*s) %s(povgloss_of_%d%.*s) #end", name, (int)size,
+                                  file->source.data + begin, macro, name, (int)size, file->source.data + begin);
 }
 
 /* A pigment inside one of these is a pattern or a value, not what an object looks like. */
@@ -282,18 +286,24 @@ static bool tracks(const struct writer *writer, int first, int last)
     return asked && may_be_clear(writer->file, first, last);
 }
 
-/* The pigment before the block at `token` in the same braces whose transparency is tracked, or -1. */
-static int covered_sibling(const struct writer *writer, int token)
+/* The last block `keyword { ... }` before `token` in the same braces, or -1. */
+static int sibling_before(const struct scene_file *file, int token, const char *keyword)
 {
-    const struct scene_file *file = writer->file;
     int parent = file->list.tokens[token].parent;
     for (int i = token - 1; i > parent && i > 0; i--) {
         if (is_mark(file, i, "}") && file->list.tokens[i].match > 0)
             i = file->list.tokens[i].match - 1;
-        if (is_word(file, i, "pigment") && opens_block(file, i))
-            return tracks(writer, i + 2, file->list.tokens[i + 1].match) ? i : -1;
+        if (is_word(file, i, keyword) && opens_block(file, i))
+            return i;
     }
     return -1;
+}
+
+/* The pigment before the block at `token` in the same braces whose transparency is tracked, or -1. */
+static int covered_sibling(const struct writer *writer, int token)
+{
+    int pigment = sibling_before(writer->file, token, "pigment");
+    return pigment >= 0 && tracks(writer, pigment + 2, writer->file->list.tokens[pigment + 1].match) ? pigment : -1;
 }
 
 /* A pigment that may be transparent is declared first, so that POV-Ray can say where it is. */
@@ -383,18 +393,59 @@ static enum result write_texture(struct writer *writer, int token, int last, boo
 /* After `#declare X = finish {...}` or the last layer of `#declare X = texture {...}`: remembers the state of X. */
 static enum result remember(struct writer *writer, int name_token, int last, struct error *err)
 {
-    int name = find_name(&writer->scene->names, writer->file, name_token), end = last + is_mark(writer->file, last + 1, ";");
-    if (name < 0 || is_word(writer->file, last + 1, "texture"))
+    const struct scene_file *file = writer->file;
+    int name = find_name(&writer->scene->names, file, name_token), end = last + is_mark(file, last + 1, ";");
+    int subscripts = after_subscripts(file, name_token + 1);
+    bool element = subscripts > name_token + 1;
+    if (name < 0 || is_word(file, last + 1, "texture") ||
+        (element && find_name(&writer->scene->surface_arrays, file, name_token) < 0))
         return RESULT_OK;
-    const char *declare = is_directive(writer->file, name_token - 1, "local") ? "#local" : "#declare";
-    enum result result = copy_to(writer, writer->file->list.tokens[end].end, err);
+    size_t begin = file->list.tokens[name_token].end, size = file->list.tokens[subscripts - 1].end - begin;
+    const char *declare = is_directive(file, name_token - 1, "local") ? "#local" : "#declare";
+    enum result result = copy_to(writer, file->list.tokens[end].end, err);
     if (!result)
-        result = buffer_printf(&writer->out, err, " %s povgloss_of_%d = povgloss_last; ", declare, name);
-    if (!result && writer->rules->coded)
+        result = buffer_printf(&writer->out, err, " %s povgloss_of_%d%.*s = povgloss_last; ", declare, name, (int)size,
+                               file->source.data + begin);
+    if (!result && writer->rules->coded && !element)
         result = buffer_printf(&writer->out, err,
                                " #ifdef (povgloss_interior) %s povgloss_interior_of_%d = interior { povgloss_interior } "
                                "#end ",
                                declare, name);
+    return result;
+}
+
+/* `#declare A = array[9] { T, texture { U } }`: A gets an array of states, with those of the elements that are or begin with
+ * a name. */
+static enum result declare_states(struct writer *writer, int directive, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int name = declared_name(file, directive), index = 0;
+    if (name < 0 || !is_mark(file, name + 1, "=") || !is_word(file, name + 2, "array") ||
+        find_name(&writer->scene->surface_arrays, file, name) < 0)
+        return RESULT_OK;
+    int brace = after_subscripts(file, name + 3), array = find_name(&writer->scene->names, file, name);
+    const struct token *tokens = file->list.tokens;
+    const char *declare = is_directive(file, directive, "local") ? "#local" : "#declare";
+    enum result result = insert_before(writer, directive, "", err);
+    if (!result)
+        result = buffer_printf(&writer->out, err, "%s povgloss_of_%d = array%.*s ", declare, array,
+                               (int)(tokens[brace - 1].end - tokens[name + 2].end), file->source.data + tokens[name + 2].end);
+    if (result || !is_mark(file, brace, "{") || tokens[brace].match < 0)
+        return result;
+    result = write_tokens(writer, brace + 1, tokens[brace].match, err);
+    *next = tokens[brace].match + 1 + is_mark(file, tokens[brace].match + 1, ";");
+    if (!result)
+        result = insert_after(writer, *next - 1, "", err);
+    for (int i = brace + 1; !result && i < tokens[brace].match; index++) {
+        int first = in_list(file, i, glossy_words) && opens_block(file, i) ? i + 2 : i;
+        int element = is_mark(file, first + 1, "[") ? -1 : find_name(&writer->scene->names, file, first);
+        if (element >= 0)
+            result = buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) %s povgloss_of_%d[%d] = povgloss_of_%d; #end ",
+                                   element, declare, array, index, element);
+        while (i < tokens[brace].match && !is_mark(file, i, ","))
+            i = tokens[i].match > i ? tokens[i].match : i + 1;
+        i++;
+    }
     return result;
 }
 
@@ -535,6 +586,13 @@ static const struct gloss_name *find_choice(const struct writer *writer, int nam
     return NULL;
 }
 
+/* Whether what uses the name finds its state beside it. */
+static bool keeps_state(const struct writer *writer, int name)
+{
+    bool element = name >= 0 && is_mark(writer->file, name + 1, "[");
+    return find_name(element ? &writer->scene->surface_arrays : &writer->scene->names, writer->file, name) >= 0;
+}
+
 /* A finish, texture or material; `name` is that of its declaration, or -1. */
 static enum result write_marked(struct writer *writer, int token, int last, int name, struct error *err)
 {
@@ -549,7 +607,7 @@ static enum result write_marked(struct writer *writer, int token, int last, int 
     }
     bool finish = is_word(file, token, "finish"), material = is_word(file, token, "material");
     if (!result)
-        result = finish     ? write_finish(writer, token, last, find_name(&writer->scene->names, file, name) >= 0, err)
+        result = finish     ? write_finish(writer, token, last, keeps_state(writer, name), err)
                  : material ? write_material(writer, token, last, err)
                             : write_texture(writer, token, last, is_layer(file, token), err);
     if (!result && choice) {
@@ -648,6 +706,88 @@ static enum result write_coded(struct writer *writer, int token, int last, int *
     return result || texture ? result : buffer_add_text(&writer->out, "povgloss_coded_interior() ", err);
 }
 
+/* Leaves out the values, textures and commas of a mesh from `first` up to the next vector, which is *next, or to `end`.
+ * Values with effects are declared; `after` ends that: POV-Ray wants a semicolon after a number and takes none after what
+ * a macro leaves of a texture. */
+static enum result drop_items(struct writer *writer, int first, int end, const char *after, int *next,
+                              struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    enum result result = RESULT_OK;
+    int item = first, item_end;
+    for (; !result && item < end && !is_mark(file, item, "<"); item = item_end) {
+        if (is_directive(file, item, "include"))
+            return error_set(err, RESULT_DATA,
+                             "%s:%d: the textures of a mesh come from a file of their own, which can't be taken: "
+                             "include the whole mesh instead",
+                             file->path, file->list.tokens[item].line);
+        if (file->list.tokens[item].kind == TOKEN_DIRECTIVE) {
+            item_end = directive_end(file, item, end);
+            result = write_tokens(writer, item, item_end, err);
+        } else if (opens_block(file, item)) {
+            item_end = file->list.tokens[item + 1].match + 1;
+            result = replace_block(writer, item, item_end - 1, "", err);
+        } else {
+            item_end = value_before(file, item, end);
+            bool value = item_end > item, effects = value && has_effects(writer, item, item_end - 1);
+            item_end += !value;
+            result = effects ? insert_before(writer, item, "#declare povgloss_dropped = ", err)
+                             : replace(writer, item, item_end - 1, "", err);
+            if (!result && effects)
+                result = insert_after(writer, item_end - 1, after, err);
+        }
+    }
+    *next = item;
+    return result;
+}
+
+static int skip_directives(const struct scene_file *file, int token, int end)
+{
+    while (token < end && file->list.tokens[token].kind == TOKEN_DIRECTIVE && !is_directive(file, token, "include"))
+        token = directive_end(file, token, end);
+    return token;
+}
+
+/* Without its texture_list a mesh takes no texture numbers after its faces: `face_indices { N, <a, b, c>, 0, ... }`. */
+static enum result write_faces(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int parent = file->list.tokens[token].parent;
+    int face = value_before(file, skip_directives(file, token + 2, last), last);
+    bool textured = sibling_before(file, token, "texture_list") >= 0, unknown = !inside(file, token, "mesh2");
+    for (int i = token; !unknown && i > parent; i--)
+        unknown = is_directive(file, i, "include");
+    face = skip_directives(file, face + is_mark(file, face, ","), last);
+    bool plain = face >= last || is_mark(file, face, "<");
+    if (textured && !plain)
+        return error_set(err, RESULT_DATA,
+                         "%s:%d: the faces of this mesh2 can't be told from the numbers of their textures: write each "
+                         "as <a, b, c>, in these braces",
+                         file->path, file->list.tokens[face].line);
+    bool strips = plain && (textured || unknown);
+    enum result result = write_tokens(writer, token + 2, strips ? face : last, err);
+    while (!result && strips && face < last) {
+        int face_end = value_before(file, face, last);
+        result = drop_items(writer, face_end + is_mark(file, face_end, ","), last, "; ", &face, err);
+    }
+    return result ? result : copy_to(writer, file->list.tokens[last].end, err);
+}
+
+/* The list of a mesh2 holds a number and textures, that of a triangle the names of three. */
+static enum result write_texture_list(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int first = token + 2, count_end = first;
+    if (!in_triangle(file, token))
+        count_end = value_before(file, skip_directives(file, first, last), last);
+    enum result result = replace(writer, token, token + 1, "", err);
+    if (!result)
+        result = drop_items(writer, first, count_end, "; ", &first, err);
+    if (!result)
+        result = drop_items(writer, first, last, " ", &first, err);
+    return result ? result : replace(writer, last, last, "", err);
+}
+
 /* Writes the block `keyword { ... }` whose keyword is at `token` if it is changed by the rules; *next is then the token
  * after it, else 0. */
 static enum result write_block(struct writer *writer, int token, int *next, struct error *err)
@@ -658,7 +798,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     bool argument = is_mark(file, token - 1, "(") || is_mark(file, token - 1, ",");
     bool value = is_mark(file, token - 1, "=") || (token == writer->value_end && is_word(file, token, "texture"));
     if (is_mark(file, token - 1, "="))
-        writer->value_name = token - 2;
+        writer->value_name = before_subscripts(file, token - 2);
     if (value)
         writer->value_end = last + 1;
     *next = last + 1;
@@ -673,7 +813,8 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         *next = 0;
         return write_object(writer, token, last, -1, err);
     }
-    bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0;
+    bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0 &&
+                 !is_mark(file, writer->value_name + 1, "[");
     bool placed = !value && file->list.tokens[token].parent < 0 && !argument && tracks(writer, token + 2, last);
     if (rules->places && (named || placed) && in_list(file, token, object_words))
         return write_object(writer, token, last, named ? writer->value_name : -1, err);
@@ -700,9 +841,9 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     if (rules->pigments && pigment && !value)
         return replace_block(writer, token, last, "pigment { povgloss_pigment }", err);
     if (rules->coded && is_word(file, token, "texture_list"))
-        return error_set(err, RESULT_DATA,
-                         "%s:%d: a mesh2 with a texture_list can't be taken yet: split it into one mesh for each texture",
-                         file->path, file->list.tokens[token].line);
+        return write_texture_list(writer, token, last, err);
+    if (rules->coded && is_word(file, token, "face_indices"))
+        return write_faces(writer, token, last, err);
     if (rules->coded && in_list(file, token, texture_words))
         return value || argument || filling || pattern || inside_any(file, token, surface_words)
                    ? write_coded_value(writer, token, last, value ? writer->value_name : -1, err)
@@ -834,6 +975,8 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
             track_directive(writer, i);
             if (writer->rules->marks || writer->rules->coded)
                 result = copy_state(writer, i, err);
+            if (!result && (writer->rules->marks || writer->rules->coded))
+                result = declare_states(writer, i, &next, err);
             if (!result && is_directive(file, i, "include"))
                 result = write_include(writer, i + 1, err);
             else if (!result && is_directive(file, i, "fopen") && writer->rules->discovery)

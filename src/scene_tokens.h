@@ -97,6 +97,28 @@ static inline void nest(struct nesting *nesting, const struct scene_file *file, 
     }
 }
 
+/* The token after the subscripts `[...][...]` that begin at `token`. */
+static inline int after_subscripts(const struct scene_file *file, int token)
+{
+    for (int depth = 0; token < file->list.count - 1; token++) {
+        depth += is_mark(file, token, "[");
+        if (depth == 0)
+            break;
+        depth -= is_mark(file, token, "]");
+    }
+    return token;
+}
+
+/* The name before the subscripts that end at `token`, or `token` itself where there are none. */
+static inline int before_subscripts(const struct scene_file *file, int token)
+{
+    for (int depth = 0; token > 0 && (depth > 0 || is_mark(file, token, "]")); token--) {
+        depth += is_mark(file, token, "]");
+        depth -= is_mark(file, token, "[");
+    }
+    return token;
+}
+
 /* The token that says what kind of block an opening brace begins: `union {`, `function (x, y) {`, `function 9, 9 {`,
  * `function W, H {`. */
 static inline int block_keyword(const struct scene_file *file, int brace)
@@ -136,7 +158,8 @@ static inline int value_end(const struct scene_file *file, int token)
             token++;
         if (is_mark(file, token, "<"))
             while (token < file->list.count - 1 && !is_mark(file, token, ">"))
-                token++;
+                token = is_mark(file, token, "(") && file->list.tokens[token].match > 0 ? file->list.tokens[token].match
+                                                                                         : token + 1;
         else if (is_mark(file, token, "(") && file->list.tokens[token].match > 0)
             token = file->list.tokens[token].match;
         else if (file->list.tokens[token].kind != TOKEN_NUMBER && file->list.tokens[token].kind != TOKEN_WORD)
@@ -158,6 +181,13 @@ static inline int value_end(const struct scene_file *file, int token)
             return token;
         token++;
     }
+}
+
+/* The same, at most `end`. */
+static inline int value_before(const struct scene_file *file, int token, int end)
+{
+    int after = token < end ? value_end(file, token) : end;
+    return after < end ? after : end;
 }
 
 /* The token after the string expression that begins at `token`. */
@@ -214,6 +244,25 @@ static inline int end_of_macro(const struct scene_file *file, int token)
             break;
     }
     return token;
+}
+
+/* The token after the directive at `token` and what it takes, but for what stands between it and its #end; at most `end`. */
+static inline int directive_end(const struct scene_file *file, int token, int end)
+{
+    static const char *const alone[] = {"else", "end", "break", NULL};
+    for (int i = 0; alone[i]; i++)
+        if (is_directive(file, token, alone[i]))
+            return token + 1;
+    int name = declared_name(file, token), first = name < 0 ? token + 1 : name + 2, after = first;
+    while (name >= 0 && after < end && file->list.tokens[after].kind != TOKEN_DIRECTIVE && !is_mark(file, after, ";"))
+        after = file->list.tokens[after].match > after ? file->list.tokens[after].match : after + 1;
+    if (is_directive(file, token, "macro"))
+        after = end_of_macro(file, token) + 1;
+    else if (is_mark(file, after, ";") || (after < end && file->list.tokens[after].kind == TOKEN_STRING))
+        after++;
+    else
+        after = value_before(file, first, end);
+    return after < end ? after : end;
 }
 
 /* Whether one of the tokens may be transparent. */

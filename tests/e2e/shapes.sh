@@ -64,10 +64,11 @@ mesh2 { vertex_vectors { 4, <-3, 0, -2>, <3, 0, -2>, <3, 0, 2>, <-3, 0, 2> } uv_
 torus { 0.6, 0.2 rotate x*60 translate y*0.9 uv_mapping texture { pigment { checker rgb 0.1 rgb <0.1, 0.2, 0.4>
   scale 0.1 } finish { F } } }
 POV
-scene "mesh of triangles, each with its own texture" << 'POV'
-#declare A = texture { pigment { rgb 0.2 } finish { reflection 0.6 Gloss(100) } }
+declare_textures='#declare A = texture { pigment { rgb 0.2 } finish { reflection 0.6 Gloss(100) } }
 #declare B = texture { pigment { rgb <0.7, 0.5, 0.2> } }
-#declare C = texture { pigment { rgb z/3 } finish { reflection 0.3 Gloss(100) } }
+#declare C = texture { pigment { rgb z/3 } finish { reflection 0.3 Gloss(100) } }'
+scene "mesh of triangles, each with its own texture" << POV
+$declare_textures
 mesh {
   #for (I, -3, 2)
     triangle { <I, 0, -2>, <I + 1, 0, -2>, <I, 0, 2> texture { A } }
@@ -75,6 +76,63 @@ mesh {
   #end
   rotate y*10
 }
+POV
+scene "mesh2 with a texture for each face, moved" << POV
+$declare_textures
+mesh2 {
+  vertex_vectors { 5, <-3, 0, -2>, <3, 0, -2>, <3, 0, 2>, <-3, 0, 2>, <0, 0.5, 0> }
+  texture_list { 3, texture { A }, texture { pigment { checker rgb 0.6 rgb <0.7, 0.5, 0.2> } },
+    texture { pigment { rgb 0.1 } finish { reflection 0.4 Gloss(100) } } }
+  face_indices { 4, <0, 1, 4>, 0, <1, 2, 4>, 1
+    <2, 3, 4> + 0*x, (1 > 2 ? 0 : 2), <3, (4 > 3 ? 0 : 1), 4>, 2 }
+  rotate y*25 scale <1, 1.5, 1> translate <0.2, 0, 0.3>
+}
+POV
+scene "mesh2 with three textures for each face" << POV
+$declare_textures
+mesh2 {
+  vertex_vectors { 5, <-3, 0, -2>, <3, 0, -2>, <3, 0, 2>, <-3, 0, 2>, <0, 0.5, 0> }
+  normal_vectors { 5, <-0.1, 1, -0.1>, <0.1, 1, -0.1>, <0.1, 1, 0.1>, <-0.1, 1, 0.1>, y }
+  texture_list { 3, texture { A }, texture { A pigment { rgb <0.4, 0, 0> } },
+    texture { A pigment { rgb 0 } normal { bumps 0.05 scale 0.2 } } }
+  face_indices { 4, <0, 1, 4>, 0, 1, 2, <1, 2, 4>, 1, 2, 2, <2, 3, 4>, 2, 2, 0, <3, 0, 4>, 0, 0, 1, }
+  normal_indices { 4, <0, 1, 4>, <1, 2, 4>, <2, 3, 4>, <3, 0, 4> }
+  translate z*0.2
+}
+POV
+scene "mesh2 with faces, textures and their numbers from loops and macros" << POV
+$declare_textures
+#declare Random = seed(3);
+#macro Ground(Index) texture { A pigment { rgb Index/5 } } #end
+#macro Body(Columns)
+  texture_list { Columns #for (I, 1, Columns) #local Shade = I; Ground(I) #end }
+  face_indices { 2*Columns
+    #declare I = 0;
+    #while (I < Columns)
+      <2*I, 2*I + 1, 2*I + 2>, I,
+      <2*I + 1, 2*I + 3, 2*I + 2>, #if (mod(I, 2) > 0) floor(rand(Random)*Columns) #else Columns - 1 #end
+      #declare I = I + 1;
+    #end
+  }
+#end
+mesh2 {
+  vertex_vectors { 8 #for (I, 0, 3) <2*I - 3, 0, -2>, <2*I - 3, 0, 2> #end }
+  Body(3)
+  rotate y*15
+}
+sphere { <rand(Random)*2, 0.5, rand(Random)>, 0.5 texture { A } }
+POV
+scene "mesh with a texture at each corner" << POV
+$declare_textures
+mesh {
+  #for (I, -3, 2)
+    triangle { <I, 0, -2>, <I + 1, 0, -2>, <I, 0, 2> texture_list { A, A B } }
+    smooth_triangle { <I + 1, 0, -2>, y + x/9, <I + 1, 0, 2>, y, <I, 0, 2>, y - x/9
+      texture_list { #if (mod(I, 2)) A A A #else C C C #end } }
+  #end
+  rotate y*10
+}
+object { Ball texture { C } scale 0.6 }
 POV
 scene "blob with textures of its components" << 'POV'
 blob { threshold 0.5
@@ -179,5 +237,32 @@ global_settings { max_trace_level 2 adc_bailout 0.05 }
 object { Floor pigment { rgb 0.2 } finish { reflection 0.6 Gloss(100) } }
 object { Ball scale 0.6 translate <0.8, 0, -0.8> pigment { rgb 0.05 } finish { reflection 0.7 Gloss(100) } }
 object { Ball scale 0.6 translate <-0.8, 0, -0.8> pigment { rgb 0.05 } finish { reflection 0.7 } }
+POV
+scene "array filled with lights" << 'POV'
+#declare L = array[2] { light_source { <3, 4, -3> rgb 0.3 }, light_source { <-3, 2, -3> rgb <0, 0.3, 0> } }
+#for (I, 0, 1) light_source { L[I] } #end
+object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "declared object that is a declared light" << 'POV'
+#declare L = light_source { <3, 4, -3> rgb 0.3 }
+#declare Moved = object { L translate x*(-4) }
+object { Moved }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+object { Ball translate x*1.3 pigment { rgb <0.1, 0.1, 0.3> } finish { reflection 0.4 } }
+POV
+scene "lights in an array" << 'POV'
+#declare L = array[1]
+#declare L[0] = light_source { <3, 4, -3> rgb 0.3 }
+light_source { L[0] }
+object { L[0] translate x*(-4) }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+object { Ball translate x*1.3 pigment { rgb <0.1, 0.1, 0.3> } finish { reflection 0.4 } }
+POV
+scene "blob glossy and dull component" << 'POV'
+blob { threshold 0.5
+  sphere { <-0.6, 0.8, 0>, 1, 1 texture { pigment { rgb 0.2 } finish { reflection 0.6 Gloss(100) } } }
+  sphere { <0.6, 0.8, 0>, 1, 1 texture { pigment { rgb <0.4, 0.1, 0> } finish { diffuse 0.7 } } }
+}
+object { Floor pigment { rgb 0.3 } }
 POV
 end_of_scenes

@@ -206,9 +206,10 @@ static void coded__declared_textures__stay_with_their_layers(void **state)
         {CODED, "#local M = 1; camera { #if (1) #local M = 2; #end }", "#declare M = 1; povgloss_modifiers() } camera { #if (1) "
                 "#declare M = 2; #end } union { povgloss_nothing()"},
         {CODED, "#declare A[0] = texture { T }", NULL},
-        {CODED, "#default { texture { pigment { rgb 1 } } }", NULL},
+        {CODED, "#default { texture { pigment { rgb 1 } } }",
+         "povgloss_modifiers() } #default { texture { pigment { rgb 1 } } } union { povgloss_nothing()"},
         {CODED, "# default { finish { ambient 0 } } sphere { 0, 1 pigment { P } }",
-         "# default { finish { ambient 0 } } sphere { 0, 1 transform {} }"},
+         "povgloss_modifiers() } # default { finish { ambient 0 } } union { povgloss_nothing() sphere { 0, 1 transform {} }"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -380,8 +381,9 @@ static void copy__arrays_of_textures__take_no_directives(void **state)
         {MIRROR, "#declare F = array[2] { finish { reflection 1 }, finish { diffuse 1 } }", NULL},
         {CODED, "#declare F = array[1] { texture { pigment { P } } }", NULL},
         {BASE, "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { F[0] } }",
-         "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { povgloss_begin(povgloss_none) "
-         "#declare povgloss_reflects = 1; F[0] povgloss_end() } }"},
+         "#declare povgloss_of_0 = array[1] #declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { "
+         "povgloss_begin(povgloss_none) F[0] #ifdef (povgloss_of_0[0]) povgloss_of_finish(povgloss_of_0[0]) #end "
+         "#declare povgloss_reflects = 1; povgloss_end() } }"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -482,19 +484,63 @@ static void copy__interiors__neither_media_nor_fading(void **state)
     ASSERT_REWRITINGS(cases);
 }
 
-static void coded__texture_list__refused_with_file_and_line(void **state)
+static void coded__texture_list__gone_with_its_indices(void **state)
 {
     (void)state;
+    static const struct rewriting cases[] = {
+        {CODED, "mesh2 { texture_list { 2, texture { A },\ntexture { B } } face_indices { 2, <0, 1, 2>, 0,\n<0, 2, 3>, 1 } }",
+         "mesh2 { \n face_indices { 2, <0, 1, 2>, \n<0, 2, 3>, } }"},
+        {CODED, "mesh2 { texture_list { 1 texture { A } } face_indices { 2 <0, 1, 2> 0, 1, 2 <0, 2, 3>, 1, 1, 1, } }",
+         "mesh2 { face_indices { 2 <0, 1, 2> <0, 2, 3>, } }"},
+        {CODED,
+         "mesh2 { texture_list { #for (I, 1, N) texture { T[I] } #end } face_indices { N, #while (I < N) <I, (I > 2 ? 0 : 1), J> + "
+         "K, mod(I, 2) #declare I = I + 1; #end } }",
+         "mesh2 { #for (I, 1, N) #end face_indices { N, #while (I < N) <I, (I > 2 ? 0 : 1), J> + K, #declare I = I + 1; #end } }"},
+        {CODED, "mesh2 { texture_list { 1, texture { A } } face_indices { 1, <0, 1, 2>, floor(rand(R)*2) } }",
+         "mesh2 { face_indices { 1, <0, 1, 2>, #declare povgloss_dropped = floor(rand(R)*2); } }"},
+        {CODED, "#macro M(I)\n#end mesh2 { texture_list { M(1), M(2), M(3) } }",
+         "#macro M(I)\n#end mesh2 { #declare povgloss_dropped = M(1); #declare povgloss_dropped = M(2) #declare "
+         "povgloss_dropped = M(3) }"},
+        {CODED, "triangle { A, B, C texture_list { T, U[0] V } }", "triangle { A, B, C }"},
+        {CODED, "mesh2 { texture_list { 1, texture { A } } face_indices { 1, #debug \"x\" <0, 1, 2>, 0 #macro M() 1 #end "
+                "#declare S = array[2] {1, 2}; #if (1) #declare J = K + 1 #end #declare } }",
+         "mesh2 { face_indices { 1, #debug \"x\" <0, 1, 2>, #macro M() 1 #end "
+         "#declare S = array[2] {1, 2}; #if (1) #declare J = K + 1 #end #declare } }"},
+        {CODED, "#macro M() mesh2 { face_indices { 1, <0, 1, 2> #for (I, 1, 2) , <I, 1, 2> #end } } #end media { M }",
+         "#macro M() mesh2 { face_indices { 1, <0, 1, 2> #for (I, 1, 2) , <I, 1, 2> #end } } #end "},
+        {CODED, "mesh2 { face_indices { 1, F(0), 0 } uv_indices { 1, <0, 1, 2> } }", NULL},
+        {CODED, "mesh2 { face_indices { 1, <0, 1, 2>, F(0) } }", NULL},
+        {CODED, "mesh2 { #include \"vertices.inc\" face_indices { 1, <0, 1, 2>, 0 } }",
+         "mesh2 { #include \"vertices.inc\" face_indices { 1, <0, 1, 2>, } }"},
+        {CODED, "face_indices { 1, <0, 1, 2>, 0 }", "face_indices { 1, <0, 1, 2>, }"},
+        {PLAIN, "mesh2 { texture_list { 1, texture { A } } face_indices { 1, <0, 1, 2>, 0 } }", NULL},
+    };
+    ASSERT_REWRITINGS(cases);
+}
+
+/* The message of a copy of a scene without textures that is refused names its third line. */
+static void assert_copy_refused(const char *source, const char *what)
+{
     struct scene scene;
     struct error err;
     char message[128];
-    load_text(&scene, "\nmesh2 {\n  texture_list { 1, texture { T } }\n}");
+    load_text(&scene, source);
     assert_int_equal(scene_write_copy(&scene, SCENE_COPY_CODED, scratch, &err), RESULT_DATA);
     snprintf(message, sizeof message, "%s/scene.pov:3: ", scratch);
     assert_memory_equal(err.text, message, strlen(message));
-    assert_contains(err.text, "texture_list");
+    assert_contains(err.text, what);
     assert_ok(scene_write_copy(&scene, SCENE_COPY_PLAIN, scratch, &err), err);
     scene_free(&scene);
+}
+
+static void coded__faces_by_macro_or_include__refused_with_file_and_line(void **state)
+{
+    (void)state;
+    assert_copy_refused("mesh2 { texture_list { 1, texture { A } }\nface_indices { 1,\nF(0) } }", "faces");
+    assert_copy_refused("mesh2 { texture_list { 1, texture { A } }\nface_indices { 1,\n#include \"faces.inc\" } }", "faces");
+    assert_copy_refused("mesh2 { texture_list { 1, texture { A } } face_indices { 2,\n<0, 1, 2>, 0\n#include \"faces.inc\" } }",
+                   "include");
+    assert_copy_refused("mesh2 {\ntexture_list { 1,\n#include \"textures.inc\" } }", "include");
 }
 
 static void copy__byte_order_mark__gone(void **state)
@@ -876,7 +922,7 @@ static void load__version__of_the_first_directive(void **state)
         const char *text;
         double version;
     } cases[] = {
-        {"#version 3.7;", 3.7},         {"// c\n/* d */ #version 3.6;", 3.6}, {"sphere { 0, 1 } #version 3.7;", 0},
+        {"#version 3.7;", 3.7},         {"// c\n/* d */ #version 3.6;", 3.6}, {"sphere { 0, 1 } #version 3.7;", 3.7},
         {"#version unofficial 3.7;", 0}, {"", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -1300,7 +1346,8 @@ int main(void)
         cmocka_unit_test(base__transparent_objects_of_the_top_level__placed_by_povray),
         cmocka_unit_test(copy__declared_layers__declared_one_by_one),
         cmocka_unit_test(copy__interiors__neither_media_nor_fading),
-        cmocka_unit_test(coded__texture_list__refused_with_file_and_line),
+        cmocka_unit_test(coded__texture_list__gone_with_its_indices),
+        cmocka_unit_test(coded__faces_by_macro_or_include__refused_with_file_and_line),
         cmocka_unit_test(copy__byte_order_mark__gone),
         cmocka_unit_test(copy__line_ends_of_dos_and_old_macs__kept),
         cmocka_unit_test(copy__what_no_scene_has__no_crash),
