@@ -414,6 +414,26 @@ static enum result collect_reads(struct passes *passes, struct error *err)
     return reads_collect(&passes->folder, &places, &passes->reads, err);
 }
 
+/* What in the scene the picture can't be right about, in one message. */
+static enum result note_limits(const struct passes *passes, struct error *note, struct error *err)
+{
+    const struct scene *scene = &passes->scene;
+    struct buffer text = {0};
+    enum result result = RESULT_OK;
+    if (scene->atmosphere)
+        result = buffer_printf(&text, err,
+                               "; the scene's %s between the eye and a glossy surface is also seen in its reflection; the "
+                               "picture there is too bright by its share",
+                               scene->atmosphere);
+    for (int i = 0; !result && scene_limit(i); i++)
+        if (scene->limits & 1u << i)
+            result = buffer_printf(&text, err, "; %s", scene_limit(i));
+    if (!result && text.size)
+        error_set(note, RESULT_OK, "%s: %s", passes->options->scene, text.data + 2);
+    buffer_free(&text);
+    return result;
+}
+
 static enum result check_scene(const struct passes *passes, struct error *note, struct error *err)
 {
     const struct scene *scene = &passes->scene;
@@ -426,11 +446,8 @@ static enum result check_scene(const struct passes *passes, struct error *note, 
     if (!scene->glossy)
         error_set(note, RESULT_OK, "%s: no finish is glossy with this --gloss: the picture is POV-Ray's own",
                   passes->options->scene);
-    if (scene->atmosphere)
-        error_set(note, RESULT_OK,
-                  "%s: the scene's %s between the eye and a glossy surface is also seen in its reflection; the picture "
-                  "there is too bright by its share",
-                  passes->options->scene, scene->atmosphere);
+    else
+        return note_limits(passes, note, err);
     return RESULT_OK;
 }
 
