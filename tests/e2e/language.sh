@@ -255,4 +255,124 @@ whole_scene "one line of 200,000 characters" < <(
             $((i % 3)) $((i % 1000))
     done
 )
+scene "copy of a finish then new reflection" << 'POV'
+#declare F = finish { reflection 0.1 Gloss(100) }
+#declare G = F;
+object { Floor pigment { rgb 0.3 } finish { G reflection 0.5 } }
+POV
+scene "finish opened in both branches" << 'POV'
+#declare Strong = 0;
+object {
+  Floor
+  pigment { rgb 0.3 }
+  #if (Strong) finish { reflection 0.9 #else finish { reflection 0.5 #end
+  Gloss(100) }
+}
+POV
+scene "local shadows then new reflection" << 'POV'
+#declare F = finish { reflection 0.5 Gloss(100) }
+#macro Dull() #local F = finish { diffuse 0.6 } object { Ball scale 0.6 translate x finish { F } pigment { rgb x } } #end
+Dull()
+object { Floor pigment { rgb 0.3 } finish { F reflection 0.4 } }
+POV
+scene "macro with braces that pair across branches" << 'POV'
+#macro Thing(Kind, Where, P)
+  #if (Kind = 0)
+    union {
+      object { Ball }
+      box { <-0.2, 0, -0.2>, <0.2, 2, 0.2> }
+  #else
+    #if (Kind = 1)
+      difference {
+        object { Ball }
+        box { <-2, 1, -2>, <2, 3, 2>
+          texture {
+            #if (P > 0)
+              pigment { rgb <0.2, 0.1, 0.3> }
+              finish { reflection 0.6 Gloss(P)
+            #else
+              pigment { rgb <0.8, 0.7, 0.3> }
+              finish { diffuse 0.7
+            #end
+            phong 0.2 }
+          }
+        }
+    #else
+      merge {
+        object { Ball }
+        cylinder { 0, y*2, 0.3 }
+    #end
+  #end
+    texture { pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+    scale 0.6
+    translate Where
+  }
+#end
+Thing(0, x*1.4, 100)
+Thing(1, 0, 100)
+Thing(1, <0.3, 0, -1.5>, 0)
+Thing(2, x*(-1.4), 100)
+object { Floor pigment { rgb 0.5 } }
+POV
+scene "places computed from the transmit of a colour" << 'POV'
+#declare C = rgbt <1, 0, 0, 0.4>;
+#declare D = color transmit 0.5 red 1;
+object { Ball scale 0.5 translate <C.transmit*3, 0, D.transmit - 1.5> pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+whole_scene "assumed gamma in a dead branch" << 'POV'
+#version 3.7;
+#if (0) global_settings { assumed_gamma 2.2 } #else global_settings { assumed_gamma 1.0 } #end
+#include "stage.inc"
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "loop variable tested before it is there" << 'POV'
+#ifndef (K) object { Ball scale 0.5 translate x pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } } #end
+#for (K, 0, 1) object { Ball scale 0.3 translate <K - 1, 0, -1> pigment { rgb 0.2*K } finish { reflection 0.5 Gloss(100) } } #end
+#ifndef (Size) object { Ball scale 0.5 translate -x pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } } #end
+#fopen Out "size.txt" write #write (Out, 0.4) #fclose Out
+#fopen In "size.txt" read #read (In, Size) #fclose In
+object { Floor pigment { rgb Size } finish { reflection 0.5 Gloss(100) } }
+POV
+whole_scene "version after a declare" << 'POV'
+#declare Old = version;
+#version 3.7;
+#include "stage.inc"
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+#version Old;
+POV
+scene "array element then new reflection" << 'POV'
+#declare F = array[2]
+#declare F[0] = finish { reflection 0.1 Gloss(100) }
+object { Floor pigment { rgb 0.3 } finish { F[0] reflection 0.5 } }
+POV
+scene "default finish after a plain mirror" << 'POV'
+object { Ball scale 0.7 translate -x pigment { rgb <0.3, 0.1, 0> } finish { reflection 0.5 } }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+#default { finish { brilliance 3 } }
+POV
+scene "default finish in the middle" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+object { Ball scale 0.7 translate -x pigment { rgb <0.3, 0.1, 0> } finish { reflection 0.5 } }
+#default { finish { ambient 0.3 diffuse 0.3 brilliance 3 metallic specular 0.5 roughness 0.1 conserve_energy } }
+object { Ball translate x pigment { rgb <0.5, 0.3, 0.1> } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "default normal in the middle" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+#default { normal { bumps 0.4 scale 0.3 } }
+object { Ball translate x pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "default texture glossy then not" << 'POV'
+#default { texture { pigment { rgb 0.3 } finish { reflection 0.4 Gloss(100) } } }
+object { Floor }
+#default { texture { pigment { rgb <0.4, 0.2, 0.1> } finish { reflection 0 } } }
+object { Ball translate x }
+POV
+scene "untextured objects between two defaults" << 'POV'
+#default { pigment { rgb <0.7, 0.3, 0.1> } }
+object { Ball scale 0.6 translate x }
+#default { pigment { rgb <0.1, 0.3, 0.7> } finish { ambient 0.2 } }
+object { Ball scale 0.6 translate -x }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
 end_of_scenes

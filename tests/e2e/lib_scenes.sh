@@ -41,7 +41,7 @@ judge() {
     "$bin/povgloss" passes "$file.pov" "+L$root/povscenes" "${size[@]}" --quiet -o "$file-passes.exr" 2>&1 || return
     "$bin/glossfilter" "$file-passes.exr" --phong inf -o "$file-mirror.exr" 2>&1 || return
     "$bin/glossfilter" "$file-passes.exr" --phong 20 -o "$file-glossy.exr" 2>&1 || return
-    idiff -fail 0.01 -failpercent 0.1 "$file-truth.exr" "$file-mirror.exr" > "$file.diff" ||
+    idiff -fail 0.01 -failpercent 0.1 -warn 0.01 -warnpercent 0.1 "$file-truth.exr" "$file-mirror.exr" > "$file.diff" ||
         { echo "mirrors aren't povray's:"; cat "$file.diff"; }
     rmse=$(sed -n 's/ *RMS error = //p' "$file.diff")
     awk "BEGIN { exit !(\"$rmse\" != \"\" && ${rmse:-1} > 0.002) }" && echo "mirrors aren't povray's: RMSE $rmse"

@@ -238,4 +238,31 @@ object { Floor pigment { rgb 0.2 } finish { reflection 0.6 Gloss(100) } }
 object { Ball scale 0.6 translate <0.8, 0, -0.8> pigment { rgb 0.05 } finish { reflection 0.7 Gloss(100) } }
 object { Ball scale 0.6 translate <-0.8, 0, -0.8> pigment { rgb 0.05 } finish { reflection 0.7 } }
 POV
+scene "array filled with lights" << 'POV'
+#declare L = array[2] { light_source { <3, 4, -3> rgb 0.3 }, light_source { <-3, 2, -3> rgb <0, 0.3, 0> } }
+#for (I, 0, 1) light_source { L[I] } #end
+object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "declared object that is a declared light" << 'POV'
+#declare L = light_source { <3, 4, -3> rgb 0.3 }
+#declare Moved = object { L translate x*(-4) }
+object { Moved }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+object { Ball translate x*1.3 pigment { rgb <0.1, 0.1, 0.3> } finish { reflection 0.4 } }
+POV
+scene "lights in an array" << 'POV'
+#declare L = array[1]
+#declare L[0] = light_source { <3, 4, -3> rgb 0.3 }
+light_source { L[0] }
+object { L[0] translate x*(-4) }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+object { Ball translate x*1.3 pigment { rgb <0.1, 0.1, 0.3> } finish { reflection 0.4 } }
+POV
+scene "blob glossy and dull component" << 'POV'
+blob { threshold 0.5
+  sphere { <-0.6, 0.8, 0>, 1, 1 texture { pigment { rgb 0.2 } finish { reflection 0.6 Gloss(100) } } }
+  sphere { <0.6, 0.8, 0>, 1, 1 texture { pigment { rgb <0.4, 0.1, 0> } finish { diffuse 0.7 } } }
+}
+object { Floor pigment { rgb 0.3 } }
+POV
 end_of_scenes

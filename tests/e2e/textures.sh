@@ -232,4 +232,123 @@ object { Ball scale 0.8 hollow translate -x pigment { rgb 0.2 } finish { reflect
 sphere { 0, 20 inverse hollow pigment { gradient y color_map { [0 rgb 0.3] [1 rgb <0.2, 0.3, 0.9>] } scale 20 }
   finish { emission 0.5 diffuse 0 } no_shadow }
 POV
+scene "averaged textures" << 'POV'
+object { Floor texture { average texture_map {
+  [1 pigment { rgb 0.2 } finish { reflection 0.6 Gloss(100) }] [1 pigment { rgb <0.7, 0.5, 0.2> } finish { diffuse 0.7 }] } } }
+POV
+scene "declared nested pigment as a function" << 'POV'
+#declare P = pigment { checker pigment { rgb 0 } pigment { bozo color_map { [0 rgb 0] [1 rgb 1] } scale 0.3 } scale 2 }
+#declare Bumps = function { pigment { P } }
+height_field {
+  function 60, 60 { Bumps(6*x, 0, 6*y).grey }
+  smooth translate <-0.5, 0, -0.5> scale <6, 0.4, 5>
+  pigment { rgb 0.2 } finish { reflection 0.6 Gloss(100) }
+}
+POV
+scene "declared pigment map as normal pattern" << 'POV'
+#declare P = pigment { gradient x pigment_map { [0 rgb 0] [1 bozo color_map { [0 rgb 0] [1 rgb 1] } scale 0.2] } scale 3 }
+#declare Q = pigment { checker pigment { rgb 0 } pigment { bozo color_map { [0 rgb 0] [1 rgb 1] } scale 0.2 } }
+object { Floor pigment { rgb 0.3 } normal { pigment_pattern { P } 0.5 } finish { reflection 0.5 Gloss(100) } }
+object { Ball translate x pigment { rgb 0.3 } normal { pigment_pattern { Q } 0.5 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "declared sky sphere" << 'POV'
+#declare S = sky_sphere { pigment { gradient y color_map { [0 rgb 1] [1 rgb z] } } }
+sky_sphere { S rotate x*10 }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "eval_pigment of nested pigments" << 'POV'
+#include "functions.inc"
+#declare P = pigment { checker pigment { rgb 0.2 } pigment { rgb <0.2, 0.5, 0.9> } }
+#for (I, 0, 4)
+  #declare C = eval_pigment(P, <I + 0.5, 0.5, 0.5>);
+  sphere { <I - 2, C.green, -1>, 0.3 pigment { rgb C } finish { reflection 0.4 Gloss(100) } }
+#end
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "pigments in pigment_pattern of normals" << 'POV'
+object { Floor pigment { rgb 0.3 }
+  normal { pigment_pattern { checker pigment { rgb 0 } pigment { bozo color_map { [0 rgb 0] [1 rgb 1] } scale 0.2 } } 0.5 }
+  finish { reflection 0.5 Gloss(100) } }
+POV
+scene "pigments in pigment_pattern of textures" << 'POV'
+object {
+  Floor
+  texture {
+    pigment_pattern { checker pigment { rgb 0 } pigment { gradient x color_map { [0.5 rgb 0.2] [0.5 rgb 1] } } scale 1.5 }
+    texture_map {
+      [0.5 pigment { rgb <0.8, 0.6, 0.2> } finish { diffuse 0.7 }]
+      [0.5 pigment { rgb 0.2 } finish { reflection 0.6 Gloss(100) }]
+    }
+  }
+}
+POV
+scene "skies inc" << 'POV'
+#include "colors.inc"
+#include "arrays.inc"
+#include "strings.inc"
+#include "consts.inc"
+#include "functions.inc"
+#include "skies.inc"
+#include "shapes_old.inc"
+sky_sphere { S_Cloud1 }
+isosurface { function { f_torus(x, y, z, 0.7, 0.25) } contained_by { sphere { 0, 1 } } max_gradient 2 rotate x*50 translate <1, 0.8, 0>
+  pigment { rgb 0.1 } finish { reflection 0.5 Gloss(100) } }
+object { Cylinder_Y scale <0.3, 1, 0.3> clipped_by { plane { y, 1 } } translate -x pigment { rgb x/3 } finish { reflection 0.5 Gloss(100) } }
+object { Floor pigment { rgb 0.3 } finish { reflection 0.4 Gloss(100) } }
+POV
+scene "sky_sphere declared with two pigments" << 'POV'
+#declare S = sky_sphere { pigment { gradient y color_map { [0 rgb 1] [1 rgb z] } } pigment { bozo color_map { [0 rgbt 1] [0.8 rgbt <1, 1, 1, 0.3>] } scale 0.2 } emission 0.8 }
+sky_sphere { S rotate x*10 }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+POV
+scene "texture_map with a soft transition" << 'POV'
+object { Floor texture { gradient x scale 4 texture_map {
+  [0.2 pigment { rgb 0.2 } finish { reflection 0.6 Gloss(100) }] [0.8 pigment { rgb <0.7, 0.5, 0.2> } finish { diffuse 0.7 }] } } }
+POV
+scene "textures inc" << 'POV'
+#include "shapes.inc"
+#include "transforms.inc"
+#include "math.inc"
+#include "rand.inc"
+#include "textures.inc"
+#include "glass.inc"
+#declare R = RdmA;
+object { Round_Box_Union(<-1, 0, -1>, <0, 1, 0>, 0.1) texture { Chrome_Metal finish { Gloss(100) } } }
+object { Supertorus(0.5, 0.2, 0.6, 0.6, 0.01, 1.5) scale 0.8 rotate x*60 translate <1, 0.8, 0> pigment { rgb <0.3, 0.1, 0> } finish { Shiny reflection 0.4 Gloss(100) } }
+object { Ball scale 0.3 Shear_Trans(x, <0.2, 1, 0>, z) translate <SRand(R), 0, -1.5> pigment { rgb 0.1 } finish { reflection 0.5 Gloss(100) } }
+object { Floor pigment { rgb clamp(2, 0, 0.4) } finish { reflection 0.4 Gloss(100) } }
+POV
+scene "transmit of a declared pigment as a function" << 'POV'
+#declare P = pigment { bozo color_map { [0 rgbt <0, 0, 0, 0>] [1 rgbt <1, 0, 0, 1>] } scale 0.5 }
+#declare Bumps = function { pigment { P } }
+isosurface {
+  function { y - 0.2*Bumps(x, y, z).transmit }
+  contained_by { box { <-3, -0.1, -2>, <3, 0.3, 2> } } max_gradient 3
+  pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) }
+}
+POV
+scene "upper layer declared elsewhere" << 'POV'
+#declare Dirt = texture { pigment { checker rgbt <1, 0.2, 0.1, 0.5> rgbt 1 } finish { diffuse 0.8 } }
+object { Floor texture { pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } } texture { Dirt } }
+POV
+scene "upper layer with a declared colour" << 'POV'
+#declare Dirt = rgbt <1, 0.2, 0.1, 0.5>;
+object { Floor texture { pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } } texture { pigment { color Dirt } finish { diffuse 0.7 } } }
+POV
+scene "upper layer with a declared colour_map" << 'POV'
+#declare M = color_map { [0 rgbt <1, 0.2, 0.1, 0.2>] [0.6 rgbt 1] }
+object { Floor texture { pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } } texture { pigment { bozo color_map { M } } } }
+POV
+scene "upper layer with a declared pigment" << 'POV'
+#declare Dirt = pigment { checker rgbt <1, 0.2, 0.1, 0.5> rgbt 1 }
+object { Floor texture { pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } } texture { pigment { Dirt } } }
+POV
+scene "woods and stones as they are" << 'POV'
+#include "colors.inc"
+#include "woods.inc"
+#include "stones.inc"
+object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
+object { Ball scale 0.7 translate x*1.1 texture { T_Stone24 scale 0.3 } }
+object { Ball scale 0.7 translate <-1.1, 0, -0.5> texture { T_Wood10 scale 0.5 } }
+POV
 end_of_scenes

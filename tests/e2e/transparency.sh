@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# What is transparent, before, around and over glossy surfaces: see lib_scenes.sh.
+. tests/e2e/lib_scenes.sh
+
+scene "clear container, panes, glass and a ball with clear squares" << 'POV'
+#include "colors.inc"
+#include "glass.inc"
+object { Floor pigment { checker rgb 0.2 rgb 0.8 translate y*0.1 } finish { reflection 0.3 Gloss(300) } }
+box { <-3, -0.5, -2>, <3, 3, 2> pigment { rgbt 1 } hollow }
+box { <-2, 0.2, -1.5>, <-1, 1.5, -1.4> pigment { rgbt <0.8, 1, 0.8, 0.7> } }
+box { <-0.5, 0.2, -1.5>, <0.5, 1.5, -1.4> texture { T_Glass1 } interior { ior 1.5 } }
+sphere {
+  <1.4, 0.8, -1>, 0.6
+  material {
+    texture { pigment { rgbf <0.9, 0.95, 1, 0.9> } finish { specular 0.5 roughness 0.001 reflection 0.1 } }
+    interior { ior 1.3 fade_distance 1 fade_power 2 }
+  }
+}
+sphere { <0, 1, 1>, 0.8 pigment { checker Clear Red scale 0.3 } finish { phong 0.5 } }
+POV
+scene "woods, a stone, metals, a varnished ball and a ball of named glass" << 'POV'
+#include "colors.inc"
+#include "woods.inc"
+#include "stones.inc"
+#include "metals.inc"
+#include "glass.inc"
+#declare Varnish = texture { pigment { rgbt 1 } finish { reflection 0.3 phong 0.5 phong_size 80 } }
+#declare Squares =
+  texture {
+    pigment { rgb 0.3 } // the lower layer
+    finish { reflection 0.5 Gloss(100) }
+  }
+  texture { pigment { checker rgbt <1, 0.2, 0.1, 0.5> rgbt 1 scale 0.7 translate y*0.1 } finish { diffuse 0.8 } };
+#declare Varnished = texture { T_Wood3 } texture { Varnish };
+#declare Glass = material { texture { T_Glass3 } interior { I_Glass1 } };
+object { Floor texture { Squares } }
+sphere { <1, 1, 1>, 0.9 texture { T_Wood7 finish { reflection 0.2 Gloss(30) } } }
+sphere { <-1.3, 0.6, -0.5>, 0.6 texture { Varnished } }
+sphere { <0, 0.5, -1.5>, 0.5 material { Glass } }
+cylinder { <-2, 0.2, -1>, <-2, 0.9, -1>, 0.3 texture { T_Stone10 } }
+cylinder { <2, 0.2, -1>, <2, 0.9, -1>, 0.3 texture { T_Copper_3C } }
+POV
+scene "glass from an array and a macro" << 'POV'
+#declare Kinds = array[2]
+#declare Kinds[0] = material { texture { pigment { rgbt 0.9 } finish { reflection 0.2 } } interior { ior 1.4 } }
+#declare Kinds[1] = material { texture { pigment { rgb 0.2 } finish { reflection 0.3 Gloss(80) } } }
+#macro Clear_Ball(C) sphere { 0, 0.5 pigment { C } finish { reflection 0.1 } interior { ior 1.2 } } #end
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 Gloss(100) } }
+#for (I, 0, 1)
+  object { Ball scale 0.6 translate <2*I - 1, 0, -0.5> material { Kinds[I] } }
+#end
+object { Clear_Ball(rgbft <0.9, 0.9, 1, 0.5, 0.4>) translate <0, 0.6, -1.6> }
+POV
+scene "clear pane before a glossy ball" << 'POV'
+box { <-0.5, 1, -3>, <0.5, 2, -2.9> pigment { rgbf <0.9, 1, 0.9, 0.9> } }
+object { Ball pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
+POV
+end_of_scenes
