@@ -80,7 +80,7 @@ static enum result read_coded(const struct pass_images *images, enum pass_id hig
     return result;
 }
 
-/* The pass is rendered under a sky of one half of the working space. */
+/* What a glossy surface reflects is one half of the working space. */
 static void scale_reflectance(struct image *reflectance, double gamma)
 {
     for (int channel = 0; channel < 3; channel++)
@@ -130,14 +130,6 @@ static bool is_total_reflection(const struct image *codes, int x, int y)
 {
     return codes->pixels && image_row(codes, 2, y)[x] > LEAST_SHARE &&
            image_row(codes, 0, y)[x] > 0.95f * image_row(codes, 2, y)[x];
-}
-
-static void clear_total_reflections(struct image *reflectance, const struct image *codes)
-{
-    for (int y = 0; same_size(reflectance, codes) && y < codes->height; y++)
-        for (int x = 0; x < codes->width; x++)
-            for (int channel = 0; is_total_reflection(codes, x, y) && channel < 3; channel++)
-                image_row(reflectance, channel, y)[x] = 0;
 }
 
 /* phong: 0 where the camera sees nothing glossy. */
@@ -302,7 +294,6 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         fill_exponents(gbuffer, images->scene->exponent, &codes);
         unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
         scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
-        clear_total_reflections(&gbuffer->reflectance, &codes);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
         eye_find(gbuffer, &directions);
         clear_unused(gbuffer);

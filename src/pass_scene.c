@@ -15,9 +15,10 @@ static const char end_mirror[] = "povgloss_dark()\n"
                                  "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
                                  "exponent 1 metallic 0 }\n"
                                  "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
-/* An exponent of 0.001 takes the sky's one half to nothing, and leaves the reflectivity for a later Gloss(). */
+/* The sky is next to black, as a total reflection shows it, which isn't glossy. POV-Ray takes what a finish reflects to the
+ * power 1/exponent: 20 makes one half of the sky, 0.001 nothing, and leaves the reflectivity for a later Gloss(). */
 static const char end_reflectance[] = "povgloss_dark()\n"
-                                      "  #if (povgloss_phong >= 0) reflection_exponent 1\n"
+                                      "  #if (povgloss_phong >= 0) reflection_exponent 20\n"
                                       "  #else #if (povgloss_reflects) reflection_exponent 0.001 #end #end";
 
 static const char mirror_white[] = "rgb 1";
@@ -26,7 +27,7 @@ static const char mirror_exponent[] = "#local povgloss_v = 65535*log(1 + povglos
                                       "  rgb <floor(povgloss_v)/65535, povgloss_v - floor(povgloss_v), 1>";
 
 static const char sky_half[] = "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n"
-                               "sky_sphere { pigment { rgb 0.5 } }\n";
+                               "sky_sphere { pigment { rgb pow(0.5, 20) } }\n";
 static const char sky_white[] = "sky_sphere { pigment { rgb 1 } }\n";
 #define MIRRORS "no_reflection no_shadow no_radiosity"
 #define SEEN_IN_MIRRORS "no_image"
@@ -36,6 +37,10 @@ static const char outside[] = "povgloss_modifiers() } object { povgloss_object }
 #define MOSTLY_CLEAR 0.5
 
 const struct pass pass_table[PASS_COUNT] = {
+    [PASS_PHOTONS] = {.name = "photons",
+                      .full_size = true,
+                      .first = {.copy = SCENE_COPY_PLAIN, .modifiers = ""},
+                      .second = {.copy = -1}},
     [PASS_BASE] = {.name = "base",
                    .full_size = true,
                    .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "", .placed = outside},
@@ -356,6 +361,18 @@ enum result pass_discovery_text(const struct scene *scene, struct buffer *text, 
     return result;
 }
 
+/* Photons don't meet what is no_image, and nothing reflects them in the base: all passes take those of the scene itself. */
+static enum result add_photon_macro(enum pass_id id, struct buffer *text, struct error *err)
+{
+    return buffer_add_text(text,
+                           id == PASS_PHOTONS ? "#macro povgloss_photons() save_file \"" PASS_PHOTONS_FILE "\" #end\n"
+                                              : "#macro povgloss_photons()\n"
+                                                "  #if (file_exists(\"../photons/" PASS_PHOTONS_FILE "\")) load_file "
+                                                "\"../photons/" PASS_PHOTONS_FILE "\" #end\n"
+                                                "#end\n",
+                           err);
+}
+
 enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text, struct error *err)
 {
     const struct pass *pass = &pass_table[id];
@@ -373,6 +390,8 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
     if (!result)
         result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass->full_size ? "" : "aperture 0");
+    if (!result)
+        result = add_photon_macro(id, text, err);
     if (!result)
         result = scene_save_names(scene, text, err);
     if (!result)
@@ -395,7 +414,7 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
         return false;
-    return id == PASS_BASE || scene->glossy;
+    return id == PASS_BASE || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])

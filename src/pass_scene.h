@@ -10,6 +10,7 @@
 #include "scene_rewrite.h"
 
 enum pass_id {
+    PASS_PHOTONS, /* no image: leaves PASS_PHOTONS_FILE in its folder, for those that are run after it */
     PASS_BASE,
     PASS_SPECULAR,
     PASS_REFLECTANCE,
@@ -21,6 +22,8 @@ enum pass_id {
     PASS_EXPONENT,
     PASS_COUNT,
 };
+
+#define PASS_PHOTONS_FILE "photons.ph"
 
 /* A copy of the scene in a union. */
 struct scene_part {
@@ -46,8 +49,9 @@ struct pass {
 
 extern const struct pass pass_table[PASS_COUNT];
 
-/* Whether the scene requires the pass: where nothing is glossy the base alone; exponents where there are several, where a
- * texture may mix a glossy surface with another one, or where a total reflection may be taken for one. */
+/* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some;
+ * exponents where there are several, where a texture may mix a glossy surface with another one, or where a total reflection
+ * may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Marks the kinds of copies that the pass includes. */

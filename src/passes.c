@@ -218,6 +218,9 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
         result = text_list_add(arguments, err, "+A0.01");
     if (!result && pass->technical)
         result = text_list_add(arguments, err, "+Q8");
+    static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
+    for (int i = 0; !result && id == PASS_PHOTONS && one_pixel[i]; i++)
+        result = text_list_add(arguments, err, "%s", one_pixel[i]);
     if (!result && options->subsample > 1 && !pass->full_size) {
         result = text_list_add(arguments, err, "+W%d", switches->width / options->subsample);
         if (!result)
@@ -357,6 +360,18 @@ static enum result discover(struct passes *passes, struct error *err)
     return result ? result : scene_settle(&passes->scene, err);
 }
 
+/* Another frame's. */
+static enum result remove_photons(const struct passes *passes, struct error *err)
+{
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s/" PASS_PHOTONS_FILE, passes->folder.path,
+                                     pass_table[PASS_PHOTONS].name);
+    if (!result)
+        remove(path);
+    free(path);
+    return result;
+}
+
 static enum result run_passes(struct passes *passes, int frame, struct error *err)
 {
     const struct passes_options *options = passes->options;
@@ -371,9 +386,16 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
             .name = pass_table[passes->ids[i]].name, .folder = folders[i], .arguments = arguments[i].texts};
     }
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
-    if (!result)
-        result = povray_run(passes->jobs, passes->job_count, at_once, passes->environment, options->progress,
-                            options->progress_context, &failed, err);
+    int first = passes->ids[0] == PASS_PHOTONS; /* the others wait for it */
+    if (!result && first)
+        result = remove_photons(passes, err);
+    if (!result && first)
+        result = povray_run(passes->jobs, 1, 1, passes->environment, no_progress, NULL, &failed, err);
+    if (!result) {
+        result = povray_run(passes->jobs + first, passes->job_count - first, at_once, passes->environment,
+                            options->progress, options->progress_context, &failed, err);
+        failed += failed >= 0 ? first : 0;
+    }
     if (failed >= 0)
         result = report_failure(passes, &passes->jobs[failed], err);
     povray_jobs_free(passes->jobs, passes->job_count);
@@ -392,6 +414,26 @@ static enum result collect_reads(struct passes *passes, struct error *err)
     return reads_collect(&passes->folder, &places, &passes->reads, err);
 }
 
+/* What in the scene the picture can't be right about, in one message. */
+static enum result note_limits(const struct passes *passes, struct error *note, struct error *err)
+{
+    const struct scene *scene = &passes->scene;
+    struct buffer text = {0};
+    enum result result = RESULT_OK;
+    if (scene->atmosphere)
+        result = buffer_printf(&text, err,
+                               "; the scene's %s between the eye and a glossy surface is also seen in its reflection; the "
+                               "picture there is too bright by its share",
+                               scene->atmosphere);
+    for (int i = 0; !result && scene_limit(i); i++)
+        if (scene->limits & 1u << i)
+            result = buffer_printf(&text, err, "; %s", scene_limit(i));
+    if (!result && text.size)
+        error_set(note, RESULT_OK, "%s: %s", passes->options->scene, text.data + 2);
+    buffer_free(&text);
+    return result;
+}
+
 static enum result check_scene(const struct passes *passes, struct error *note, struct error *err)
 {
     const struct scene *scene = &passes->scene;
@@ -404,11 +446,8 @@ static enum result check_scene(const struct passes *passes, struct error *note, 
     if (!scene->glossy)
         error_set(note, RESULT_OK, "%s: no finish is glossy with this --gloss: the picture is POV-Ray's own",
                   passes->options->scene);
-    if (scene->atmosphere)
-        error_set(note, RESULT_OK,
-                  "%s: the scene's %s between the eye and a glossy surface is also seen in its reflection; the picture "
-                  "there is too bright by its share",
-                  passes->options->scene, scene->atmosphere);
+    else
+        return note_limits(passes, note, err);
     return RESULT_OK;
 }
 

@@ -180,6 +180,41 @@ static enum result note_variables(struct scene *scene, const struct scene_file *
     return result;
 }
 
+/* What the passes can't hold: a word in a block of this name. */
+static const struct limit {
+    const char *word, *block, *effect;
+} limits[] = {
+    {"exponent", "reflection", "the exponent of a glossy reflection counts as 1"},
+    {"reflection_exponent", "finish", "the reflection_exponent of a glossy finish counts as 1"},
+    {"irid", "finish", "irid in a glossy finish doesn't tint its reflection"},
+    {"aperture", "camera", "focal blur leaves glossy reflections as sharp as they are"},
+    {"save_file", "photons", "photons that the scene saves aren't reflected by glossy surfaces"},
+};
+#define LIMIT_COUNT ((int)(sizeof limits / sizeof *limits))
+
+const char *scene_limit(int index)
+{
+    return index < LIMIT_COUNT ? limits[index].effect : NULL;
+}
+
+/* Whether the finish at this brace reflects, or may since it begins with a name. */
+static bool may_reflect(const struct scene *scene, const struct scene_file *file, int brace)
+{
+    static const char *const words[] = {"reflection", "Gloss", "Gloss_Roughness", NULL};
+    return find_name(&scene->names, file, brace + 1) >= 0 || mentions(file, brace, file->list.tokens[brace].match, words);
+}
+
+static void note_limits(struct scene *scene, const struct scene_file *file, int token)
+{
+    int brace = file->list.tokens[token].parent;
+    for (int i = 0; brace > 0 && i < LIMIT_COUNT; i++) {
+        bool one = file->list.tokens[token + 1].kind == TOKEN_NUMBER && number_value(file, token + 1) == 1;
+        if (is_word(file, token, limits[i].word) && is_word(file, brace - 1, limits[i].block) && !one &&
+            (strcmp(limits[i].block, "finish") || may_reflect(scene, file, brace)))
+            scene->limits |= 1u << i;
+    }
+}
+
 static enum result note_token(struct scene *scene, int index, int token, struct error *err)
 {
     const struct scene_file *file = &scene->files[index];
@@ -212,10 +247,13 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
         scene->radiosity = true;
     if (is_word(file, token, "ior"))
         scene->refracts = true;
+    note_limits(scene, file, token);
     if (in_list(file, token, mixing_words))
         scene->mixes = true;
     if (is_word(file, token, "aperture"))
         scene->focal_blur = true;
+    if (shoots_photons(file, token))
+        scene->photons = true;
     if (is_word(file, token, "assumed_gamma"))
         return note_gamma(scene, file, token, err);
     bool own = !strcmp(base_name(file->path), "povgloss.inc");

@@ -52,6 +52,8 @@ struct scene {
     double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
     int gammas;            /* how often an assumed_gamma is written anywhere */
     bool focal_blur;        /* some camera has an aperture */
+    bool photons;           /* its global_settings may shoot photons */
+    unsigned limits;        /* bit i: it holds what scene_limit(i) is about */
     const char *atmosphere; /* "fog", "rainbow" or "media" where the scene has one at top level, else NULL */
 };
 
@@ -74,6 +76,9 @@ MUST_CHECK enum result scene_find_file(const char *name, const char *const *dire
 /* Takes `path` over, and gives the index of the file, which is read, with those that it includes, if it is new. */
 MUST_CHECK enum result scene_add_file(struct scene *scene, char *path, const char *const *directories,
                                       int directory_count, int *index, struct error *err);
+
+/* What the picture of a glossy scene with a construct of this kind lacks; NULL: there are no more. */
+const char *scene_limit(int index);
 
 bool scene_has_unknown_include(const struct scene_file *file);
 

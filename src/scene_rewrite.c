@@ -50,14 +50,6 @@ static const struct rules copy_rules[SCENE_COPY_COUNT] = {
     [SCENE_COPY_DISCOVERY] = {"discovery", STATEMENTS_STAY, .lights = true, .discovery = true},
 };
 
-static bool mentions(const struct scene_file *file, int first, int end, const char *const *words)
-{
-    for (int token = first; token < end; token++)
-        if (in_list(file, token, words))
-            return true;
-    return false;
-}
-
 /* Whether the token lies in the braces that fill an array, where POV-Ray takes no directive and no macro. */
 static bool fills_array(const struct scene_file *file, int token)
 {
@@ -168,6 +160,16 @@ static enum result write_technical_settings(struct writer *writer, int first, in
     return result;
 }
 
+/* In global_settings of a copy that is drawn: photons end in povgloss_photons(). */
+static enum result write_photons(struct writer *writer, int first, int end, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int i = first; !result && i < end; i++)
+        if (shoots_photons(writer->file, i))
+            result = insert_before(writer, writer->file->list.tokens[i + 1].match, " povgloss_photons() ", err);
+    return result;
+}
+
 /* Whether leaving the tokens out would change what follows: they declare something, draw random numbers or call a macro. */
 static bool has_effects(const struct writer *writer, int first, int last)
 {
@@ -232,10 +234,10 @@ static enum result write_statement(struct writer *writer, int token, int last, s
     enum result result = RESULT_OK;
     if (statements != STATEMENTS_STAY)
         result = insert_before(writer, token, "povgloss_modifiers() } ", err);
-    if (!result && settings && writer->rules->technical)
-        result = write_technical_settings(writer, token + 2, last, err);
-    if (!result && settings && writer->rules->discovery)
-        result = write_gamma_log(writer, token + 2, last, err);
+    if (!result && settings)
+        result = writer->rules->technical   ? write_technical_settings(writer, token + 2, last, err)
+                 : writer->rules->discovery ? write_gamma_log(writer, token + 2, last, err)
+                                            : write_photons(writer, token + 2, last, err);
     if (!result && camera && writer->scene->focal_blur)
         result = insert_before(writer, last, " povgloss_camera() ", err);
     if (!result && statements != STATEMENTS_STAY)
@@ -538,13 +540,24 @@ static const char *const object_words[] = {
     "prism",         "quadric",       "quartic",      "smooth_triangle", "sor",           "sphere",   "sphere_sweep",
     "superellipsoid", "text",         "torus",        "triangle",        "union",         NULL};
 
-/* An object that may be transparent, with its textures counted: one of the top level is declared and then placed, a declared
- * one keeps its counts beside its name (`name`, else -1). */
+/* `object { X` at its keyword counts the textures of X. */
+static enum result add_part_counts(struct writer *writer, int token, struct error *err)
+{
+    int part = is_word(writer->file, token, "object") ? find_name(&writer->scene->names, writer->file, token + 2) : -1;
+    if (part < 0 || is_mark(writer->file, token + 3, "(") || is_mark(writer->file, token + 3, "["))
+        return RESULT_OK;
+    enum result result = insert_after(writer, token + 2, "", err);
+    return result ? result
+                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #end ",
+                                  part, part);
+}
+
+/* An object with its textures counted: one of the top level, which may be transparent, is declared and then placed, a declared
+ * one, which may be glossy, keeps its counts beside its name (`name`, else -1). */
 static enum result write_object(struct writer *writer, int token, int last, int name, struct error *err)
 {
     const struct scene_file *file = writer->file;
-    int index = find_name(&writer->scene->names, file, name),
-        part = is_word(file, token, "object") ? find_name(&writer->scene->names, file, token + 2) : -1;
+    int index = find_name(&writer->scene->names, file, name);
     enum result result = name >= 0 ? RESULT_OK : insert_before(writer, token, "#declare povgloss_object = ", err);
     if (!result)
         result = insert_after(writer, token + 1, " povgloss_enter() ", err);
@@ -553,12 +566,8 @@ static enum result write_object(struct writer *writer, int token, int last, int 
     writer->object_end = last;
     if (!result && name >= 0)
         result = buffer_printf(&writer->out, err, "#declare povgloss_before_%d = povgloss_counts; ", index);
-    if (!result && part >= 0) {
-        result = insert_after(writer, token + 2, "", err);
-        if (!result)
-            result = buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #end ",
-                                   part, part);
-    }
+    if (!result)
+        result = add_part_counts(writer, token, err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
@@ -809,8 +818,8 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     }
     bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0 &&
                  !is_mark(file, writer->value_name + 1, "[");
-    if (rules->places && (named || (!value && file->list.tokens[token].parent < 0 && !argument)) &&
-        in_list(file, token, object_words) && tracks(writer, token + 2, last))
+    bool placed = !value && file->list.tokens[token].parent < 0 && !argument && tracks(writer, token + 2, last);
+    if (rules->places && (named || placed) && in_list(file, token, object_words))
         return write_object(writer, token, last, named ? writer->value_name : -1, err);
     bool filling = fills_array(file, token), pattern = inside_any(file, token, pattern_words);
     bool pigment = is_word(file, token, "pigment") && !pattern;
@@ -843,7 +852,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
                    ? write_coded_value(writer, token, last, value ? writer->value_name : -1, err)
                    : write_coded(writer, token, last, next, err);
     *next = 0;
-    return RESULT_OK;
+    return rules->places && !filling ? add_part_counts(writer, token, err) : RESULT_OK;
 }
 
 /* What says how a finish reflects: noted for povgloss_end; with automatic gloss the lobe of the highlight, too. */

@@ -4,7 +4,7 @@
  * copy names the line of the user's own file. What replaces them refers to names that the pass's wrapper declares
  * (pass_scene.c): the macros povgloss_begin and povgloss_end around the items of every finish, povgloss_pigment,
  * povgloss_modifiers (those of the union around), povgloss_nothing (an object, for unions that would be empty) and, where
- * a camera has an aperture, povgloss_camera at its end.
+ * a camera has an aperture, povgloss_camera at its end, and povgloss_photons at the end of the photons of global_settings.
  */
 #ifndef POVGLOSS_SCENE_REWRITE_H
 #define POVGLOSS_SCENE_REWRITE_H

@@ -49,6 +49,23 @@ static inline bool opens_block(const struct scene_file *file, int token)
     return is_mark(file, token + 1, "{") && file->list.tokens[token + 1].match > 0;
 }
 
+static inline bool mentions(const struct scene_file *file, int first, int end, const char *const *words)
+{
+    for (int token = first; token < end; token++)
+        if (in_list(file, token, words))
+            return true;
+    return false;
+}
+
+/* Whether the token is the photons of global_settings, which are shot anew in every run of POV-Ray. */
+static inline bool shoots_photons(const struct scene_file *file, int token)
+{
+    static const char *const files[] = {"load_file", "save_file", NULL};
+    int parent = is_word(file, token, "photons") ? file->list.tokens[token].parent : -1;
+    return parent > 0 && is_word(file, parent - 1, "global_settings") && opens_block(file, token) &&
+           !mentions(file, token + 2, file->list.tokens[token + 1].match, files);
+}
+
 /* Whether the directive is closed by an #end. */
 static inline bool opens_nesting(const struct scene_file *file, int token)
 {

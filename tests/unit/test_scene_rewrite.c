@@ -165,8 +165,11 @@ static void copy__technical_settings__neither_gamma_nor_photons(void **state)
          "povgloss_modifiers() } global_settings { ambient_light 1 }" OPEN},
         {PLAIN, "global_settings { assumed_gamma 2.2 radiosity { } }",
          "povgloss_modifiers() } global_settings { assumed_gamma 2.2 radiosity { } }" OPEN},
+        {PLAIN, "global_settings { photons { count 9 load_file \"a\" } } sphere { 0, 1 photons { target } }",
+         "povgloss_modifiers() } global_settings { photons { count 9 load_file \"a\" } }" OPEN " sphere { 0, 1 photons { "
+         "target } }"},
         {REFLECTANCE, "global_settings { assumed_gamma srgb photons { } }",
-         "povgloss_modifiers() } global_settings { assumed_gamma srgb photons { } }" OPEN},
+         "povgloss_modifiers() } global_settings { assumed_gamma srgb photons { povgloss_photons() } }" OPEN},
     };
     ASSERT_REWRITINGS(cases);
 }

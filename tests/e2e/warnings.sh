@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# What the picture of a glossy scene lacks is said, in one line, and nothing is said of a scene without it.
+. tests/e2e/lib.sh
+
+cd "$scratch" || exit 1
+
+# draw SETTINGS CAMERA FINISH [OBJECTS]: a scene of a glossy floor with these; leaves the warnings in $warnings.
+draw() {
+    printf '%s\n' '#version 3.7;' '#include "povgloss.inc"' "global_settings { assumed_gamma 1.0 $1 }" \
+        "camera { location <0, 2, -6> look_at 0 $2 }" 'light_source { <-5, 8, -6> rgb 1 }' \
+        "plane { y, 0 pigment { rgb 0.3 } finish { $3 } }" "${4:-}" > scene.pov
+    run "$bin/povgloss" passes scene.pov "+L$root/povscenes" +W16 +H12 -A -o passes.exr
+    warnings=$(grep '^povgloss: warning' err)
+    expect_status 0
+}
+
+# says TEXT SETTINGS CAMERA FINISH [OBJECTS]
+says() {
+    draw "${@:2}" || return 1
+    [[ $warnings == "povgloss: warning: scene.pov: $1" ]] || { echo "not said: $1"; show_run; return 1; }
+}
+
+says_nothing() {
+    draw "$@" || return 1
+    [ -z "$warnings" ] || { show_run; return 1; }
+}
+
+glossy='reflection 0.5 Gloss(50)'
+check "nothing" says_nothing '' '' "$glossy"
+check "exponent in a reflection" says 'the exponent of a glossy reflection counts as 1' \
+    '' '' 'reflection { 0.5 exponent 2 } Gloss(50)'
+check "exponent 1" says_nothing '' '' 'reflection { 0.5 exponent 1 } Gloss(50)'
+check "reflection_exponent" says 'the reflection_exponent of a glossy finish counts as 1' '' '' "reflection_exponent 2 $glossy"
+check "irid" says "irid in a glossy finish doesn't tint its reflection" '' '' "irid { 0.3 thickness 0.5 } $glossy"
+check "irid in a finish that reflects nothing" says_nothing '' '' "$glossy" \
+    'sphere { y, 1 pigment { rgb 1 } finish { irid { 0.3 } } }'
+check "focal blur" says 'focal blur leaves glossy reflections as sharp as they are' \
+    '' 'aperture 0.2 blur_samples 4 focal_point 0' "$glossy"
+check "photons that are saved" says "photons that the scene saves aren't reflected by glossy surfaces" \
+    'photons { count 100 save_file "mine.ph" }' '' "$glossy"
+check "photons" says_nothing 'photons { count 100 }' '' "$glossy" 'sphere { y, 1 pigment { rgb 1 } photons { target } }'
+check "two of them" says "irid in a glossy finish doesn't tint its reflection; focal blur leaves glossy reflections as sharp \
+as they are" '' 'aperture 0.2 blur_samples 4 focal_point 0' "irid { 0.3 } $glossy"
+end_of_tests
