@@ -516,8 +516,10 @@ static const char *const texture_words[] = {"texture",  "pigment", "finish", "no
 static enum result write_light(struct writer *writer, int token, int last, bool value, struct error *err)
 {
     static const char *const looks_like[] = {"looks_like", NULL};
-    if (find_name(&writer->scene->names, writer->file, token + 2) >= 0)
-        return copy_to(writer, writer->file->list.tokens[last].end, err);
+    const struct scene_file *file = writer->file;
+    bool element = is_mark(file, token + 3, "[") && !is_mark(file, after_subscripts(file, token + 3), ",");
+    if (find_name(&writer->scene->lights, file, token + 2) >= 0 || element)
+        return copy_to(writer, file->list.tokens[last].end, err);
     if (!value && !has_effects(writer, token + 1, last) && !mentions(writer->file, token + 2, last, looks_like))
         return replace(writer, token, last, "", err);
     enum result result = write_tokens(writer, token + 2, last, err);
