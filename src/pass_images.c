@@ -144,7 +144,8 @@ static void fill_exponents(struct gbuffer *gbuffer, double single, const struct 
             if (glossy && single >= 0)
                 exponent = (float)fmax(single, 1e-6);
             else if (glossy && share > (double)LEAST_SHARE)
-                exponent = decode_exponent((double)image_row(codes, 0, y)[x] / share, (double)image_row(codes, 1, y)[x] / share);
+                exponent = decode_exponent((double)image_row(codes, 0, y)[x] / share,
+                                           (double)image_row(codes, 1, y)[x] / share);
             image_row(&gbuffer->phong, 0, y)[x] = exponent >= 1e20f ? INFINITY : exponent;
         }
 }

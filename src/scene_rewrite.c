@@ -26,7 +26,6 @@ enum statements {
 struct rules {
     const char *name;
     enum statements statements;
-    bool in_union;        /* the copy is inside a union */
     bool lights;
     bool marks;           /* povgloss_begin and povgloss_end in finishes */
     bool pigments;        /* pigments become povgloss_pigment, or the parts of it that hide what is behind them */
@@ -38,16 +37,16 @@ struct rules {
 };
 
 static const struct rules copy_rules[SCENE_COPY_COUNT] = {
-    [SCENE_COPY_PLAIN] = {"plain", STATEMENTS_BREAK, .in_union = true, .lights = true},
+    [SCENE_COPY_PLAIN] = {"plain", STATEMENTS_BREAK, .lights = true},
     [SCENE_COPY_BASE] = {"base", STATEMENTS_STAY, .lights = true, .marks = true},
-    [SCENE_COPY_BASE_FIRST] = {"base1", STATEMENTS_BREAK, .in_union = true, .lights = true, .marks = true, .places = true},
-    [SCENE_COPY_BASE_SECOND] = {"base2", STATEMENTS_DROP, .in_union = true, .marks = true, .places = true},
-    [SCENE_COPY_MIRROR] = {"mirror", STATEMENTS_CAMERA, .in_union = true, .marks = true, .pigments = true, .covers = true,
+    [SCENE_COPY_BASE_FIRST] = {"base1", STATEMENTS_BREAK, .lights = true, .marks = true, .places = true},
+    [SCENE_COPY_BASE_SECOND] = {"base2", STATEMENTS_DROP, .marks = true, .places = true},
+    [SCENE_COPY_MIRROR] = {"mirror", STATEMENTS_CAMERA, .marks = true, .pigments = true, .covers = true,
                            .technical = true},
-    [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .in_union = true, .marks = true, .pigments = true, .covers = true,
+    [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .marks = true, .pigments = true, .covers = true,
                                   .technical = true},
-    [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .in_union = true, .marks = true, .covers = true},
-    [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .in_union = true, .coded = true, .covers = true, .technical = true},
+    [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .marks = true, .covers = true},
+    [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .coded = true, .covers = true, .technical = true},
     [SCENE_COPY_DISCOVERY] = {"discovery", STATEMENTS_STAY, .lights = true, .discovery = true},
 };
 
@@ -192,7 +191,8 @@ static enum result replace_block(struct writer *writer, int token, int last, con
         result = is_word(writer->file, token, "interior_texture") ? replace(writer, token, token, "texture", err)
                                                                   : RESULT_OK;
     for (int i = token + 2; !result && i < last; i++)
-        if (opens_block(writer->file, i) && writer->file->list.tokens[i + 1].match == last) /* opened by another branch, too */
+        /* Another branch of a conditional opens the block, too. */
+        if (opens_block(writer->file, i) && writer->file->list.tokens[i + 1].match == last)
             result = insert_before(writer, i, "#declare povgloss_dropped = ", err);
     if (!result)
         result = insert_after(writer, last, "; ", err);
@@ -257,8 +257,9 @@ static enum result inherit_state(struct writer *writer, int token, const char *m
     size_t begin = file->list.tokens[token].end, size = file->list.tokens[end - 1].end - begin;
     enum result result = copy_to(writer, begin + size, err);
     return result ? result
-                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d%.*s) %s(povgloss_of_%d%.*s) #end", name, (int)size,
-                                  file->source.data + begin, macro, name, (int)size, file->source.data + begin);
+                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d%.*s) %s(povgloss_of_%d%.*s) #end", name,
+                                  (int)size, file->source.data + begin, macro, name, (int)size,
+                                  file->source.data + begin);
 }
 
 /* A pigment inside one of these is a pattern or a value, not what an object looks like. */
@@ -378,8 +379,8 @@ static enum result write_texture(struct writer *writer, int token, int last, boo
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result && rules->marks && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
-        result = insert_before(writer, last,
-                               " finish { povgloss_begin(povgloss_none) #declare povgloss_reflects = 1; povgloss_end() } ", err);
+        result = insert_before(
+            writer, last, " finish { povgloss_begin(povgloss_none) #declare povgloss_reflects = 1; povgloss_end() } ", err);
     if (!result && rules->marks && writer->given && plain && !mentions(writer->file, token + 2, last, finish_carriers))
         result = insert_before(writer, last, " finish { povgloss_begin(povgloss_texture) povgloss_end() } ", err);
     if (!result && rules->marks && rules->covers && cover && plain)
@@ -469,7 +470,8 @@ static enum result copy_state(struct writer *writer, int directive, struct error
 static enum result write_coded_material(struct writer *writer, int token, int last, struct error *err)
 {
     int name = find_name(&writer->scene->names, writer->file, token + 2);
-    enum result result = insert_after(writer, token + 1, " povgloss_no_interior() #declare povgloss_last = povgloss_none; ", err);
+    enum result result =
+        insert_after(writer, token + 1, " povgloss_no_interior() #declare povgloss_last = povgloss_none; ", err);
     if (!result)
         result = inherit_state(writer, token + 2, "povgloss_of_material", err);
     if (!result && name >= 0)
@@ -482,7 +484,7 @@ static enum result write_coded_material(struct writer *writer, int token, int la
     return result ? result : copy_to(writer, writer->file->list.tokens[last].end, err);
 }
 
-/* Between the eye and a glossy surface nothing may fade, glow or split the ray; media and fading stay in the reflectance. */
+/* Between the eye and a glossy surface nothing may fade, glow or split the ray; the reflectance fades. */
 static enum result write_interior(struct writer *writer, int token, int last, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -514,8 +516,10 @@ static const char *const texture_words[] = {"texture",  "pigment", "finish", "no
 static enum result write_light(struct writer *writer, int token, int last, bool value, struct error *err)
 {
     static const char *const looks_like[] = {"looks_like", NULL};
-    if (find_name(&writer->scene->names, writer->file, token + 2) >= 0)
-        return copy_to(writer, writer->file->list.tokens[last].end, err);
+    const struct scene_file *file = writer->file;
+    bool element = is_mark(file, token + 3, "[") && !is_mark(file, after_subscripts(file, token + 3), ",");
+    if (find_name(&writer->scene->lights, file, token + 2) >= 0 || element)
+        return copy_to(writer, file->list.tokens[last].end, err);
     if (!value && !has_effects(writer, token + 1, last) && !mentions(writer->file, token + 2, last, looks_like))
         return replace(writer, token, last, "", err);
     enum result result = write_tokens(writer, token + 2, last, err);
@@ -532,11 +536,11 @@ static enum result write_material(struct writer *writer, int token, int last, st
 }
 
 static const char *const object_words[] = {
-    "bicubic_patch", "blob",    "box",     "cone",      "cubic",          "cylinder",     "difference", "disc",
-    "height_field",  "intersection", "isosurface", "julia_fractal", "lathe", "merge",     "mesh",       "mesh2",
-    "object",        "parametric", "plane", "poly",     "polygon",        "prism",        "quadric",    "quartic",
-    "smooth_triangle", "sor",   "sphere",  "sphere_sweep", "superellipsoid", "text",      "torus",      "triangle",
-    "union",         NULL};
+    "bicubic_patch", "blob",          "box",          "cone",            "cubic",         "cylinder", "difference",
+    "disc",          "height_field",  "intersection", "isosurface",      "julia_fractal", "lathe",    "merge",
+    "mesh",          "mesh2",         "object",       "parametric",      "plane",         "poly",     "polygon",
+    "prism",         "quadric",       "quartic",      "smooth_triangle", "sor",           "sphere",   "sphere_sweep",
+    "superellipsoid", "text",         "torus",        "triangle",        "union",         NULL};
 
 /* `object { X` at its keyword counts the textures of X. */
 static enum result add_part_counts(struct writer *writer, int token, struct error *err)
@@ -572,8 +576,9 @@ static enum result write_object(struct writer *writer, int token, int last, int 
         result = insert_after(writer, last, " ", err);
     if (result || name < 0)
         return result ? result : buffer_add_text(&writer->out, "povgloss_place() ", err);
-    return buffer_printf(&writer->out, err, "povgloss_leave() #declare povgloss_holds_%d = povgloss_counts - povgloss_before_%d; ",
-                         index, index);
+    return buffer_printf(&writer->out, err,
+                         "povgloss_leave() #declare povgloss_holds_%d = povgloss_counts - povgloss_before_%d; ", index,
+                         index);
 }
 
 /* What the user chose for the name at a token, or NULL. */
@@ -691,8 +696,7 @@ static enum result write_coded(struct writer *writer, int token, int last, int *
     if (triangle || !clear)
         return replace_block(writer, token, last, triangle ? "" : "transform {}", err);
     enum result result = RESULT_OK;
-    for (int block = token; !result && (block == token || (texture && is_word(file, block, "texture"))) && opens_block(file, block);
-         block = last + 1) {
+    for (int block = token, more = true; !result && more; block = last + 1) {
         last = file->list.tokens[block + 1].match;
         result = insert_before(writer, block, "#declare povgloss_dropped = ", err);
         if (!result)
@@ -700,6 +704,7 @@ static enum result write_coded(struct writer *writer, int token, int last, int *
                              : write_coded_material(writer, block, last, err);
         if (!result)
             result = insert_after(writer, last, "; ", err);
+        more = texture && is_word(file, last + 1, "texture") && opens_block(file, last + 1);
     }
     *next = last + 1;
     result = result ? result : buffer_add_text(&writer->out, "povgloss_coded(povgloss_last.t) ", err);
@@ -939,7 +944,7 @@ static enum result write_default(struct writer *writer, int token, int *next, st
     const struct scene_file *file = writer->file;
     int last = file->list.tokens[token + 1].match;
     *next = last + 1;
-    bool breaks = writer->rules->in_union && file->list.tokens[token].parent < 0 && !writer->in_macro;
+    bool breaks = writer->rules->statements != STATEMENTS_STAY && file->list.tokens[token].parent < 0 && !writer->in_macro;
     enum result result = insert_before(writer, token, breaks ? "povgloss_modifiers() } " : "", err);
     if (!result && file->list.tokens[token].kind == TOKEN_WORD) /* the old form, which is a statement */
         result = buffer_add_text(&writer->out, "#", err);
@@ -1030,7 +1035,8 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
     for (int i = 0; !result && i < scene->file_count; i++) {
         const struct scene_file *file = &scene->files[i];
         struct writer writer = {
-            .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy, .value_end = -1, .end = file->list.count, .object_end = -1};
+            .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy,
+            .value_end = -1, .end = file->list.count, .object_end = -1};
         /* POV-Ray takes a byte order mark in a scene but not in an include file, which every copy is. */
         if (file->source.size >= 3 && !memcmp(file->source.data, "\xEF\xBB\xBF", 3))
             writer.at = 3;

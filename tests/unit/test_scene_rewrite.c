@@ -347,6 +347,8 @@ static void copy__lights__where_they_are_needed(void **state)
          "light_source { 0 rgb 1 looks_like { sphere { 0, 1 transform {} } } fade_distance 1e-9 fade_power 20 }"},
         {BASE2, "#declare L = light_source { 0 rgb 1 }\nlight_source { L translate x }",
          "#declare L = light_source { 0 rgb 1 fade_distance 1e-9 fade_power 20 }\nlight_source { L translate x }"},
+        {BASE2, "#declare Place = <1, 2, 3>; light_source { Place, rgb 1 } light_source { Places[2], rgb 1 } light_source { A[0] }",
+         "#declare Place = <1, 2, 3>; light_source { A[0] }"},
         {MIRROR, "#declare L = light_source { 0 rgb 1 } object { L translate x } object { M }",
          "#declare L = light_source { 0 rgb 1 fade_distance 1e-9 fade_power 20 } object { L translate x } object { M }"},
         {BASE2, "light_group { light_source { 0 rgb 1 } object { O } global_lights off }", NULL},
