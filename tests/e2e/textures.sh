@@ -351,4 +351,17 @@ object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
 object { Ball scale 0.7 translate x*1.1 texture { T_Stone24 scale 0.3 } }
 object { Ball scale 0.7 translate <-1.1, 0, -0.5> texture { T_Wood10 scale 0.5 } }
 POV
+scene "photons that a glossy mirror throws, and a ball that collects none" << 'POV'
+global_settings { photons { count 20000 jitter 0 } }
+light_source { <-3, 3, -3> rgb 0.15 photons { reflection on refraction on } }
+object { Floor pigment { rgb 0.4 } finish { reflection 0.3 Gloss(100) } }
+box { <1.5, 0, -1>, <1.6, 2, 1> pigment { rgb 0.1 } finish { reflection 0.8 Gloss(100) } photons { target reflection on } }
+sphere { <-0.5, 0.5, -1>, 0.5 pigment { rgb 0.6 } photons { collect off } }
+POV
+scene "a glossy part that is declared by itself, in a union with glass" << 'POV'
+#declare Cage = difference { box { -0.7, 0.7 } box { <-0.6, -0.6, -1>, <0.6, 0.6, 1> } box { <-1, -0.6, -0.6>, <1, 0.6, 0.6> }
+  pigment { rgb <0.5, 0.4, 0.2> } finish { diffuse 0.3 reflection { 0.6 metallic } Gloss(100) } }
+union { object { Cage } sphere { 0, 0.3 pigment { rgbt 0.9 } } rotate y*20 translate <0, 0.8, -0.5> }
+object { Floor pigment { rgb 0.4 } finish { reflection 0.2 } }
+POV
 end_of_scenes
