@@ -245,21 +245,69 @@ static enum result write_statement(struct writer *writer, int token, int last, s
     return result ? result : copy_to(writer, writer->file->list.tokens[last].end, err);
 }
 
+/* Appends the subscripts after the name at `name`. Those that may differ when they are computed again, as by rand(), are the
+ * variables VARIABLE_0, VARIABLE_1 ... that hoist_subscripts declares. */
+static enum result add_subscripts(const struct writer *writer, int name, const char *variable, struct buffer *text,
+                                  struct error *err)
+{
+    const struct token *tokens = writer->file->list.tokens;
+    int end = after_subscripts(writer->file, name + 1);
+    enum result result = RESULT_OK;
+    if (!has_effects(writer, name + 1, end - 1))
+        return buffer_add(text, writer->file->source.data + tokens[name].end, tokens[end - 1].end - tokens[name].end, err);
+    for (int i = name + 1, index = 0; !result && i < end; i = subscript_end(writer->file, i) + 1)
+        result = buffer_printf(text, err, "[%s_%d]", variable, index++);
+    return result;
+}
+
+/* Declares those variables in front of the token `before` and puts them in the place of the subscripts. */
+static enum result hoist_subscripts(struct writer *writer, int before, int name, const char *variable, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    const struct token *tokens = file->list.tokens;
+    int end = after_subscripts(file, name + 1);
+    if (!has_effects(writer, name + 1, end - 1))
+        return RESULT_OK;
+    struct buffer text = {0};
+    enum result result = insert_before(writer, before, "", err);
+    for (int i = name + 1, index = 0, last; !result && i < end; i = last + 1) {
+        last = subscript_end(file, i);
+        result = buffer_printf(&writer->out, err, "#declare %s_%d = %.*s; ", variable, index++,
+                               (int)(tokens[last].begin - tokens[i].end), file->source.data + tokens[i].end);
+    }
+    if (!result)
+        result = add_subscripts(writer, name, variable, &text, err);
+    if (!result)
+        result = buffer_add(&text, "", 1, err);
+    if (!result)
+        result = replace(writer, name + 1, end - 1, text.data, err);
+    buffer_free(&text);
+    return result;
+}
+
 /* A finish or texture that begins with a declared name takes over that one's state (pass_scene.c), which is kept in a
  * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows), by the macro; for an
  * element of an array it is in an array of the same size. */
 static enum result inherit_state(struct writer *writer, int token, const char *macro, struct error *err)
 {
+    static const char index[] = "povgloss_index";
     const struct scene_file *file = writer->file;
     int name = find_name(&writer->scene->names, file, token), end = after_subscripts(file, token + 1);
     if (name < 0 || (end > token + 1 && find_name(&writer->scene->surface_arrays, file, token) < 0))
         return RESULT_OK;
-    size_t begin = file->list.tokens[token].end, size = file->list.tokens[end - 1].end - begin;
-    enum result result = copy_to(writer, begin + size, err);
-    return result ? result
-                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d%.*s) %s(povgloss_of_%d%.*s) #end", name,
-                                  (int)size, file->source.data + begin, macro, name, (int)size,
-                                  file->source.data + begin);
+    struct buffer element = {0};
+    enum result result = hoist_subscripts(writer, token, token, index, err);
+    if (!result)
+        result = copy_to(writer, file->list.tokens[end - 1].end, err);
+    if (!result)
+        result = buffer_printf(&element, err, "povgloss_of_%d", name);
+    if (!result)
+        result = add_subscripts(writer, token, index, &element, err);
+    if (!result)
+        result = buffer_printf(&writer->out, err, " #ifdef (%.*s) %s(%.*s) #end", (int)element.size, element.data, macro,
+                               (int)element.size, element.data);
+    buffer_free(&element);
+    return result;
 }
 
 /* A pigment inside one of these is a pattern or a value, not what an object looks like. */
@@ -287,24 +335,38 @@ static bool tracks(const struct writer *writer, int first, int last)
     return asked && may_be_clear(writer->file, first, last);
 }
 
-/* The last block `keyword { ... }` before `token` in the same braces, or -1. */
+/* The last block `keyword { ... }` before `token` in the same braces and macro that isn't declared, or -1. */
 static int sibling_before(const struct scene_file *file, int token, const char *keyword)
 {
     int parent = file->list.tokens[token].parent;
-    for (int i = token - 1; i > parent && i > 0; i--) {
+    if (is_mark(file, token - 1, "="))
+        return -1;
+    for (int i = token - 1; i > parent && i > 0 && !is_directive(file, i, "macro"); i--) {
         if (is_mark(file, i, "}") && file->list.tokens[i].match > 0)
             i = file->list.tokens[i].match - 1;
-        if (is_word(file, i, keyword) && opens_block(file, i))
+        if (is_word(file, i, keyword) && opens_block(file, i) && !is_mark(file, i - 1, "="))
             return i;
     }
     return -1;
 }
 
-/* The pigment before the block at `token` in the same braces whose transparency is tracked, or -1. */
+/* What a finish gets its transparency from: the last pigment, texture or material before it in the same braces, or -1. */
+static int surface_before(const struct scene_file *file, int token)
+{
+    static const char *const words[] = {"pigment", "texture", "material"};
+    int last = -1;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        int block = sibling_before(file, token, words[i]);
+        last = block > last ? block : last;
+    }
+    return last;
+}
+
+/* The same if its transparency is tracked, else -1. */
 static int covered_sibling(const struct writer *writer, int token)
 {
-    int pigment = sibling_before(writer->file, token, "pigment");
-    return pigment >= 0 && tracks(writer, pigment + 2, writer->file->list.tokens[pigment + 1].match) ? pigment : -1;
+    int block = surface_before(writer->file, token);
+    return block >= 0 && tracks(writer, block + 2, writer->file->list.tokens[block + 1].match) ? block : -1;
 }
 
 /* A pigment that may be transparent is declared first, so that POV-Ray can say where it is. */
@@ -324,12 +386,15 @@ static enum result write_cover(struct writer *writer, int token, int last, struc
 
 static enum result begin_finish(struct writer *writer, int token, struct error *err)
 {
-    int brace = writer->file->list.tokens[token].parent, cover = covered_sibling(writer, token);
-    bool in_texture = brace > 0 && is_word(writer->file, brace - 1, "texture");
+    const struct scene_file *file = writer->file;
+    int brace = file->list.tokens[token].parent, surface = surface_before(file, token);
+    bool in_texture = brace > 0 && is_word(file, brace - 1, "texture");
+    bool own = surface >= 0 && is_word(file, surface, "pigment") && covered_sibling(writer, token) >= 0;
     enum result result = insert_after(writer, token + 1,
-                                      in_texture   ? " povgloss_begin(povgloss_texture) "
-                                      : cover >= 0 ? " povgloss_begin(povgloss_own) "
-                                                   : " povgloss_begin(povgloss_none) ",
+                                      in_texture                                          ? " povgloss_begin(povgloss_texture) "
+                                      : own                                               ? " povgloss_begin(povgloss_own) "
+                                      : surface >= 0 && !is_word(file, surface, "pigment") ? " povgloss_begin(povgloss_last) "
+                                                                                          : " povgloss_begin(povgloss_none) ",
                                       err);
     if (!result)
         result = inherit_state(writer, token + 2, "povgloss_of_finish", err);
@@ -391,6 +456,8 @@ static enum result write_texture(struct writer *writer, int token, int last, boo
     return result;
 }
 
+static const char declared_element[] = "povgloss_element";
+
 /* After `#declare X = finish {...}` or the last layer of `#declare X = texture {...}`: remembers the state of X. */
 static enum result remember(struct writer *writer, int name_token, int last, struct error *err)
 {
@@ -401,12 +468,14 @@ static enum result remember(struct writer *writer, int name_token, int last, str
     if (name < 0 || is_word(file, last + 1, "texture") ||
         (element && find_name(&writer->scene->surface_arrays, file, name_token) < 0))
         return RESULT_OK;
-    size_t begin = file->list.tokens[name_token].end, size = file->list.tokens[subscripts - 1].end - begin;
     const char *declare = is_directive(file, name_token - 1, "local") ? "#local" : "#declare";
     enum result result = copy_to(writer, file->list.tokens[end].end, err);
     if (!result)
-        result = buffer_printf(&writer->out, err, " %s povgloss_of_%d%.*s = povgloss_last; ", declare, name, (int)size,
-                               file->source.data + begin);
+        result = buffer_printf(&writer->out, err, " %s povgloss_of_%d", declare, name);
+    if (!result)
+        result = add_subscripts(writer, name_token, declared_element, &writer->out, err);
+    if (!result)
+        result = buffer_add_text(&writer->out, " = povgloss_last; ", err);
     if (!result && writer->rules->coded && !element)
         result = buffer_printf(&writer->out, err,
                                " #ifdef (povgloss_interior) %s povgloss_interior_of_%d = interior { povgloss_interior } "
@@ -982,6 +1051,9 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
                 result = copy_state(writer, i, err);
             if (!result && (writer->rules->marks || writer->rules->coded))
                 result = declare_states(writer, i, &next, err);
+            if (!result && (writer->rules->marks || writer->rules->coded) && declared_name(file, i) > 0 &&
+                find_name(&writer->scene->surface_arrays, file, declared_name(file, i)) >= 0)
+                result = hoist_subscripts(writer, i, declared_name(file, i), declared_element, err);
             if (!result && is_directive(file, i, "include"))
                 result = write_include(writer, i + 1, err);
             else if (!result && is_directive(file, i, "fopen") && writer->rules->discovery)

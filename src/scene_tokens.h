@@ -109,6 +109,18 @@ static inline int after_subscripts(const struct scene_file *file, int token)
     return token;
 }
 
+/* The ] of the subscript that begins at `token`. */
+static inline int subscript_end(const struct scene_file *file, int token)
+{
+    for (int depth = 0; token < file->list.count - 1; token++) {
+        depth += is_mark(file, token, "[");
+        depth -= is_mark(file, token, "]");
+        if (depth == 0)
+            break;
+    }
+    return token;
+}
+
 /* The name before the subscripts that end at `token`, or `token` itself where there are none. */
 static inline int before_subscripts(const struct scene_file *file, int token)
 {
