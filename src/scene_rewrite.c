@@ -73,6 +73,7 @@ struct writer {
     int object_end;  /* the same of the last block that write_object wrote */
     bool given;      /* in the declaration of a name that the user chose to be glossy */
     bool in_macro;
+    bool in_default; /* in the braces of a #default */
     int conditions;  /* depth of #if, #while, #for, #switch, #macro; which of them are macros */
     bool is_macro[MAX_CONDITIONS];
     struct buffer out;
@@ -369,6 +370,20 @@ static int covered_sibling(const struct writer *writer, int token)
     return block >= 0 && tracks(writer, block + 2, writer->file->list.tokens[block + 1].match) ? block : -1;
 }
 
+/* Whether a finish follows the block that ends at `last` in the same braces and macro. */
+static bool has_finish_after(const struct scene_file *file, int last)
+{
+    const struct token *tokens = file->list.tokens;
+    int parent = tokens[last].parent, end = parent >= 0 ? tokens[parent].match : file->list.count;
+    for (int i = last + 1; i < end && !is_directive(file, i, "macro"); i++) {
+        if (is_word(file, i, "finish") && is_mark(file, i + 1, "{"))
+            return true;
+        if (is_mark(file, i, "{") && tokens[i].match > i)
+            i = tokens[i].match;
+    }
+    return false;
+}
+
 /* A pigment that may be transparent is declared first, so that POV-Ray can say where it is. */
 static enum result write_cover(struct writer *writer, int token, int last, struct error *err)
 {
@@ -379,9 +394,15 @@ static enum result write_cover(struct writer *writer, int token, int last, struc
     enum result result = insert_before(writer, token, "#declare povgloss_cover = ", err);
     if (!result)
         result = insert_after(writer, last, ";", err);
-    return result ? result
-                  : buffer_printf(&writer->out, err, " povgloss_cover_of_%s(%d) ", in_texture ? "texture" : "object",
-                                  mentions(writer->file, token + 2, last, uv));
+    if (!result)
+        result = buffer_printf(&writer->out, err, " povgloss_cover_of_%s(%d) ", in_texture ? "texture" : "object",
+                               mentions(writer->file, token + 2, last, uv));
+    if (result || in_texture || !writer->rules->marks || has_finish_after(writer->file, last))
+        return result;
+    return buffer_add_text(&writer->out,
+                           writer->rules->covers ? "povgloss_count(povgloss_own) povgloss_hide(povgloss_own) "
+                                                 : "povgloss_count(povgloss_own) ",
+                           err);
 }
 
 static enum result begin_finish(struct writer *writer, int token, struct error *err)
@@ -394,8 +415,12 @@ static enum result begin_finish(struct writer *writer, int token, struct error *
                                       in_texture                                          ? " povgloss_begin(povgloss_texture) "
                                       : own                                               ? " povgloss_begin(povgloss_own) "
                                       : surface >= 0 && !is_word(file, surface, "pigment") ? " povgloss_begin(povgloss_last) "
-                                                                                          : " povgloss_begin(povgloss_none) ",
+                                                                                          : " povgloss_begin(povgloss_default_state) ",
                                       err);
+    bool value = is_mark(file, token - 1, "=");
+    if (!result && value && find_name(&writer->scene->names, file, token + 2) < 0 &&
+        find_name(&writer->scene->parameters, file, token + 2) < 0)
+        result = buffer_add_text(&writer->out, "povgloss_of_default() ", err);
     if (!result)
         result = inherit_state(writer, token + 2, "povgloss_of_finish", err);
     /* An element of a filled array comes unmarked. */
@@ -628,6 +653,7 @@ static enum result add_part_counts(struct writer *writer, int token, struct erro
 static enum result write_object(struct writer *writer, int token, int last, int name, struct error *err)
 {
     const struct scene_file *file = writer->file;
+    static const char *const unions[] = {"union", NULL};
     int index = find_name(&writer->scene->names, file, name);
     enum result result = name >= 0 ? RESULT_OK : insert_before(writer, token, "#declare povgloss_object = ", err);
     if (!result)
@@ -639,6 +665,9 @@ static enum result write_object(struct writer *writer, int token, int last, int 
         result = buffer_printf(&writer->out, err, "#declare povgloss_before_%d = povgloss_counts; ", index);
     if (!result)
         result = add_part_counts(writer, token, err);
+    /* Parts without a texture show the default. */
+    if (!result && mentions(file, token, last, unions))
+        result = buffer_add_text(&writer->out, " povgloss_count(povgloss_default_state) ", err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
@@ -681,7 +710,7 @@ static enum result write_marked(struct writer *writer, int token, int last, int 
     }
     bool finish = is_word(file, token, "finish"), material = is_word(file, token, "material");
     if (!result)
-        result = finish     ? write_finish(writer, token, last, keeps_state(writer, name), err)
+        result = finish     ? write_finish(writer, token, last, writer->in_default || keeps_state(writer, name), err)
                  : material ? write_material(writer, token, last, err)
                             : write_texture(writer, token, last, is_layer(file, token), err);
     if (!result && choice) {
@@ -1007,7 +1036,7 @@ static enum result write_include(struct writer *writer, int token, struct error 
 }
 
 /* Objects without a texture take the default when they are finished, at the end of the union: it ends before the default
- * changes. In a copy without textures it matters for none. */
+ * changes. In a copy without textures it would be seen in the codes, and is taken back. */
 static enum result write_default(struct writer *writer, int token, int *next, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -1015,10 +1044,17 @@ static enum result write_default(struct writer *writer, int token, int *next, st
     *next = last + 1;
     bool breaks = writer->rules->statements != STATEMENTS_STAY && file->list.tokens[token].parent < 0 && !writer->in_macro;
     enum result result = insert_before(writer, token, breaks ? "povgloss_modifiers() } " : "", err);
+    if (!result && writer->rules->marks)
+        result = buffer_add_text(&writer->out, "povgloss_enter_default() ", err);
     if (!result && file->list.tokens[token].kind == TOKEN_WORD) /* the old form, which is a statement */
         result = buffer_add_text(&writer->out, "#", err);
-    if (!result && !writer->rules->coded)
-        result = write_tokens(writer, token + 1, last, err);
+    writer->in_default = true;
+    if (!result)
+        result = writer->rules->coded ? insert_after(writer, last, " #default { texture { povgloss_default } }", err)
+                                      : write_tokens(writer, token + 1, last, err);
+    writer->in_default = false;
+    if (!result && writer->rules->marks)
+        result = insert_after(writer, last, " povgloss_leave_default() ", err);
     return result || !breaks ? result : insert_after(writer, last, " union { povgloss_nothing()", err);
 }
 

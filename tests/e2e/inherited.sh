@@ -27,4 +27,66 @@ object { Floor pigment { rgb 0.2 } finish { reflection 0.4 phong_size 50 } }
 object { Ball translate x texture { pigment { rgbf <0.9, 0.8, 0.9, 0.9> } } finish { F } interior { ior 1.3 } }
 object { Ball translate -x texture { T } finish { F diffuse 0.2 } }
 POV
+
+# ---- finishes that begin with the default
+
+default_scene() {
+    cat << 'POV'
+object { Floor pigment { rgb 0.2 } finish { reflection 0.4 phong_size 50 Gloss(50) } }
+POV
+    printf '%s\n' "$1"
+    cat << 'POV'
+#declare Named = sphere { 0, 0.5 }
+#declare Clear = texture { pigment { rgbt <0.7, 0.8, 0.9, 0.6> } }
+#declare F = finish { phong 1 }
+object { Named translate <-2, 0.5, -1> pigment { rgb <0.3, 0.1, 0> } }
+object { Named translate <-1, 0.5, -1> pigment { rgbt <0.8, 0.9, 0.7, 0.7> } interior { ior 1.2 } }
+object { Named translate <0, 0.5, -1> texture { Clear } }
+object { Named translate <1, 0.5, -1> texture { Clear finish { F } } }
+object { Named translate <2, 0.5, -1> texture { pigment { rgbf <1, 0.9, 0.8, 0.8> }
+  finish { diffuse 0.2 } } interior { ior 1.3 } }
+object { Named translate <-2, 1.5, 0> texture { pigment { rgb <0, 0.1, 0.3> } finish { F diffuse 0.2 } } }
+object { Named translate <-1, 1.5, 0> texture { pigment { rgb <0, 0.1, 0.3> } finish { F reflection 0 } } }
+object { Named translate <0, 1.5, 0> pigment { rgb <0, 0.3, 0.3> } finish { diffuse 0.2 } }
+object { Named translate <1, 1.5, 0> texture { gradient y scale 0.2
+  texture_map { [0.5 pigment { rgb <0.3, 0.1, 0> }] [0.5 pigment { rgb 0.2 } finish { reflection 0.1 }] } } }
+object { Named translate <2, 1.5, 0> finish { diffuse 0.2 } }
+object { Named translate <-0.5, 2.2, 0> }
+POV
+}
+scene "default finish" < <(default_scene '#default { finish { reflection 0.3 phong 0.5 phong_size 60 } }')
+scene "default texture" < <(default_scene '#default {
+  texture { pigment { rgb 0.4 } finish { ambient 0 reflection { 0.4 } specular 0.5 roughness 0.003 } } }')
+scene "default finish, twice" < <(default_scene '#default { finish { reflection 0.3 phong 0.5 phong_size 60 } }
+#default { finish { diffuse 0.4 } }')
+
+# With Gloss() in a default the passes are those of the same scene with that finish written everywhere.
+passes_of() {
+    "$bin/povgloss" passes "$folder/$1.pov" "+L$folder" +Lpovscenes "${size[@]}" --quiet -o "$folder/$1.exr"
+}
+default_is_as_written() {
+    local beginning='#version 3.7; global_settings { assumed_gamma 1 }
+#include "stage.inc"
+#declare D = finish { reflection 0.3 phong 0.5 Gloss(60) }
+#declare Named = sphere { 0, 0.5 }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(60) } }'
+    printf '%s\n' "$beginning" '#default { finish { reflection 0.3 phong 0.5 Gloss(60) } }
+object { Named translate <-2, 0.5, -1> pigment { rgb <0.3, 0.1, 0> } }
+object { Named translate <-1, 0.5, -1> pigment { rgbt <0.8, 0.9, 0.7, 0.7> } interior { ior 1.2 } }
+object { Named translate <0, 0.5, -1> texture { pigment { rgbt <0.7, 0.8, 0.9, 0.6> } } }
+object { Named translate <1, 0.5, -1> texture { pigment { rgbf <1, 0.9, 0.8, 0.8> } finish { diffuse 0.2 } } }
+union { object { Named } object { Named translate <-0.2, 0, -1> pigment { rgbt 0.9 } } translate <0.5, 1.6, 0> }
+object { Named translate <-1, 1.5, 0> finish { diffuse 0.2 } }' > "$folder/default.pov"
+    printf '%s\n' "$beginning" '
+object { Named translate <-2, 0.5, -1> pigment { rgb <0.3, 0.1, 0> } finish { D } }
+object { Named translate <-1, 0.5, -1> pigment { rgbt <0.8, 0.9, 0.7, 0.7> } finish { D } interior { ior 1.2 } }
+object { Named translate <0, 0.5, -1> texture { pigment { rgbt <0.7, 0.8, 0.9, 0.6> } finish { D } } }
+object { Named translate <1, 0.5, -1> texture { pigment { rgbf <1, 0.9, 0.8, 0.8> } finish { D diffuse 0.2 } } }
+union { object { Named pigment { rgb 0 } finish { D } }
+  object { Named translate <-0.2, 0, -1> pigment { rgbt 0.9 } finish { D } } translate <0.5, 1.6, 0> }
+object { Named translate <-1, 1.5, 0> finish { D diffuse 0.2 } }' > "$folder/written.pov"
+    passes_of default && passes_of written &&
+        idiff -a -fail 1e-4 -hardfail 1e-4 "$folder/default.exr" "$folder/written.exr"
+}
+check "a default with Gloss() is as if it were written in each finish" default_is_as_written
 end_of_scenes
