@@ -175,7 +175,7 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#declare povgloss_state = povgloss_none; #declare povgloss_texture = povgloss_none;\n"
         "#declare povgloss_last = povgloss_none; #declare povgloss_own = povgloss_none; #declare povgloss_lower = 1;\n"
         "#declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
-        "#declare povgloss_default_state = povgloss_none;\n"
+        "#declare povgloss_default_state = povgloss_none; #declare povgloss_value = 0;\n"
         "#ifdef (povgloss_plain) #undef povgloss_plain #end\n"
         "#declare povgloss_counts = <0, 0>;\n"
         "#macro povgloss_add(povgloss_c) #declare povgloss_counts = povgloss_counts + povgloss_c; #end\n"
@@ -311,6 +311,8 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
 {
     bool coded = part->copy == SCENE_COPY_CODED, tracked = part->copy != SCENE_COPY_PLAIN;
     enum result result = tracked ? add_state_macros(scene, text, err) : RESULT_OK;
+    if (!result && tracked)
+        result = scene_declare_states(scene, text, err);
     if (!result && tracked)
         result = add_cover_macros(part, text, err);
     if (!result && tracked)

@@ -294,7 +294,8 @@ static enum result inherit_state(struct writer *writer, int token, const char *m
     static const char index[] = "povgloss_index";
     const struct scene_file *file = writer->file;
     int name = find_name(&writer->scene->names, file, token), end = after_subscripts(file, token + 1);
-    if (name < 0 || (end > token + 1 && find_name(&writer->scene->surface_arrays, file, token) < 0))
+    if (name < 0 || is_call(file, token) ||
+        (end > token + 1 && find_name(&writer->scene->surface_arrays, file, token) < 0))
         return RESULT_OK;
     struct buffer element = {0};
     enum result result = hoist_subscripts(writer, token, token, index, err);
@@ -310,6 +311,13 @@ static enum result inherit_state(struct writer *writer, int token, const char *m
     buffer_free(&element);
     return result;
 }
+
+static const char *const object_words[] = {
+    "bicubic_patch", "blob",          "box",          "cone",            "cubic",         "cylinder", "difference",
+    "disc",          "height_field",  "intersection", "isosurface",      "julia_fractal", "lathe",    "merge",
+    "mesh",          "mesh2",         "object",       "parametric",      "plane",         "poly",     "polygon",
+    "prism",         "quadric",       "quartic",      "smooth_triangle", "sor",           "sphere",   "sphere_sweep",
+    "superellipsoid", "text",         "torus",        "triangle",        "union",         NULL};
 
 /* A pigment inside one of these is a pattern or a value, not what an object looks like. */
 static const char *const pattern_words[] = {"function", "pigment",  "pigment_map", "pigment_pattern", "normal",
@@ -560,6 +568,91 @@ static enum result copy_state(struct writer *writer, int directive, struct error
                                   is_directive(file, directive, "local") ? "#local" : "#declare", to, from);
 }
 
+/* `#macro M(F, X)`: a macro with such a parameter among the surfaces takes the state of each besides, as `#macro M(F, X,
+ * povgloss_of_N, povgloss_unused_1)`. */
+static enum result take_states(struct writer *writer, int directive, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int macro = directive + 1, position = 0;
+    if (!is_directive(file, directive, "macro") || find_name(&writer->scene->surface_macros, file, macro) < 0)
+        return RESULT_OK;
+    int last = file->list.tokens[macro + 1].match;
+    enum result result = insert_before(writer, last, "", err);
+    for (int i = macro + 2; !result && i < last; i = argument_end(file, i, last) + 1, position++) {
+        int name = find_name(&writer->scene->surfaces, file, i) < 0 ? -1 : find_name(&writer->scene->names, file, i);
+        result = buffer_printf(&writer->out, err, name >= 0 ? ", povgloss_of_%d" : ", povgloss_unused_%d",
+                               name >= 0 ? name : position);
+    }
+    return result;
+}
+
+/* `M(F, 9)`, at M: gives the states. Of the arguments that are written out it is that of the last one. */
+static enum result give_states(struct writer *writer, int token, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    if (find_name(&writer->scene->surface_macros, file, token) < 0 || !is_call(file, token))
+        return RESULT_OK;
+    int last = file->list.tokens[token + 1].match;
+    struct buffer states = {0};
+    enum result result = write_tokens(writer, token + 2, last, err);
+    for (int i = token + 2, end; !result && i < last; i = end + 1) {
+        end = argument_end(file, i, last);
+        int name = find_name(&writer->scene->surfaces, file, i) < 0 ? -1 : find_name(&writer->scene->names, file, i);
+        bool element = end > i + 1;
+        if (in_list(file, i, glossy_words) && opens_block(file, i) && argument_end(file, end + 1, last) >= last)
+            result = buffer_add_text(&states, ", povgloss_last*1", err);
+        else if (name < 0 || after_subscripts(file, i + 1) != end || has_effects(writer, i, end - 1) ||
+                 (element && find_name(&writer->scene->surface_arrays, file, i) < 0))
+            result = buffer_add_text(&states, ", povgloss_none", err);
+        else
+            result = buffer_printf(&states, err, ", povgloss_of_%d%.*s", name,
+                                   (int)(file->list.tokens[end - 1].end - file->list.tokens[i].end),
+                                   file->source.data + file->list.tokens[i].end);
+    }
+    if (!result)
+        result = insert_before(writer, last, "", err);
+    if (!result)
+        result = buffer_add(&writer->out, states.data, states.size, err);
+    buffer_free(&states);
+    *next = last;
+    return result;
+}
+
+/* Whether a macro of the name at `token` writes an object itself. */
+static bool makes_object(const struct scene *scene, const struct scene_file *from, int token)
+{
+    const struct token *name = &from->list.tokens[token];
+    for (int i = 0; i < scene->file_count; i++) {
+        const struct scene_file *file = &scene->files[i];
+        for (int macro = 1; macro < file->list.count; macro++)
+            if (is_directive(file, macro - 1, "macro") && is_same_word(file, macro, from, name) &&
+                mentions(file, macro, end_of_macro(file, macro - 1), object_words))
+                return true;
+    }
+    return false;
+}
+
+/* `#declare T = Made()`, where textures, finishes or materials begin with T. */
+static enum result declare_made(struct writer *writer, int directive, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int name = declared_name(file, directive), value = name < 0 ? -1 : after_subscripts(file, name + 1) + 1;
+    if (name < 0 || !is_mark(file, value - 1, "=") || find_name(&writer->scene->surfaces, file, name) < 0 ||
+        find_name(&writer->scene->names, file, value) < 0 || !is_call(file, value) ||
+        makes_object(writer->scene, file, value))
+        return RESULT_OK;
+    int last = file->list.tokens[value + 1].match;
+    enum result result = insert_before(
+        writer, directive, "#declare povgloss_last = povgloss_none; #declare povgloss_value = povgloss_value + 1; ", err);
+    if (!result)
+        result = write_tokens(writer, value, last + 1, err);
+    if (!result)
+        result = insert_after(writer, last + is_mark(file, last + 1, ";"), " #declare povgloss_value = povgloss_value - 1; ",
+                              err);
+    *next = last + 1 + is_mark(file, last + 1, ";");
+    return result ? result : remember(writer, name, last, err);
+}
+
 /* A material in a copy without textures: its interior is kept for the object, which may be clear. */
 static enum result write_coded_material(struct writer *writer, int token, int last, struct error *err)
 {
@@ -628,13 +721,6 @@ static enum result write_material(struct writer *writer, int token, int last, st
         result = inherit_state(writer, token + 2, "povgloss_of_material", err);
     return result ? result : write_tokens(writer, token + 2, last, err);
 }
-
-static const char *const object_words[] = {
-    "bicubic_patch", "blob",          "box",          "cone",            "cubic",         "cylinder", "difference",
-    "disc",          "height_field",  "intersection", "isosurface",      "julia_fractal", "lathe",    "merge",
-    "mesh",          "mesh2",         "object",       "parametric",      "plane",         "poly",     "polygon",
-    "prism",         "quadric",       "quartic",      "smooth_triangle", "sor",           "sphere",   "sphere_sweep",
-    "superellipsoid", "text",         "torus",        "triangle",        "union",         NULL};
 
 /* `object { X` at its keyword counts the textures of X. */
 static enum result add_part_counts(struct writer *writer, int token, struct error *err)
@@ -782,6 +868,54 @@ static enum result write_coded_value(struct writer *writer, int token, int last,
     enum result result = texture ? write_texture(writer, token, last, is_layer(file, token), err)
                                  : write_coded_material(writer, token, last, err);
     return result || name < 0 ? result : remember(writer, name, last, err);
+}
+
+/* Whether every condition and macro that begins or ends between two tokens does both. */
+static bool nests_evenly(const struct scene_file *file, int first, int last)
+{
+    int depth = 0;
+    for (int i = first; i <= last && depth >= 0; i++)
+        depth += opens_nesting(file, i) - is_directive(file, i, "end");
+    return depth == 0;
+}
+
+/* Appends the tokens of a source without its comments and lines. */
+static enum result add_in_one_line(struct buffer *text, const struct buffer *source, struct error *err)
+{
+    struct token_list list = {0};
+    enum result result = scene_lex("", source, &list, err);
+    for (int i = 0; !result && i < list.count - 1; i++) {
+        result = buffer_add(text, source->data + list.tokens[i].begin, list.tokens[i].end - list.tokens[i].begin, err);
+        if (!result)
+            result = buffer_add_text(text, " ", err);
+    }
+    token_list_free(&list);
+    return result;
+}
+
+static enum result write_coded(struct writer *writer, int token, int last, int *next, struct error *err);
+
+/* Outside braces a macro may give its caller a value, or an object its textures: povgloss_value tells. */
+static enum result write_coded_result(struct writer *writer, int token, int last, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    struct writer value = *writer;
+    value.out = (struct buffer){0};
+    value.at = file->list.tokens[token].begin;
+    enum result result = write_coded_value(&value, token, last, -1, err);
+    if (!result)
+        result = copy_to(&value, file->list.tokens[last].end, err);
+    if (!result)
+        result = insert_before(writer, token, "#if (povgloss_value > 0) ", err);
+    if (!result)
+        result = add_in_one_line(&writer->out, &value.out, err);
+    buffer_free(&value.out);
+    if (!result)
+        result = buffer_add_text(&writer->out, "#else ", err);
+    *next = last + 1;
+    if (!result)
+        result = write_coded(writer, token, last, next, err);
+    return result ? result : insert_after(writer, *next - 1, " #end ", err);
 }
 
 /* In an object they go. One that may be clear is declared in front of it, so that POV-Ray decides. */
@@ -947,6 +1081,9 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         return write_texture_list(writer, token, last, err);
     if (rules->coded && is_word(file, token, "face_indices"))
         return write_faces(writer, token, last, err);
+    if (rules->coded && in_list(file, token, texture_words) && writer->in_macro && file->list.tokens[token].parent < 0 &&
+        !value && !argument && nests_evenly(file, token, last))
+        return write_coded_result(writer, token, last, next, err);
     if (rules->coded && in_list(file, token, texture_words))
         return value || argument || filling || pattern || inside_any(file, token, surface_words)
                    ? write_coded_value(writer, token, last, value ? writer->value_name : -1, err)
@@ -1087,9 +1224,13 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
                 result = copy_state(writer, i, err);
             if (!result && (writer->rules->marks || writer->rules->coded))
                 result = declare_states(writer, i, &next, err);
+            if (!result && writer->rules->marks)
+                result = take_states(writer, i, err);
             if (!result && (writer->rules->marks || writer->rules->coded) && declared_name(file, i) > 0 &&
                 find_name(&writer->scene->surface_arrays, file, declared_name(file, i)) >= 0)
                 result = hoist_subscripts(writer, i, declared_name(file, i), declared_element, err);
+            if (!result && (writer->rules->marks || writer->rules->coded))
+                result = declare_made(writer, i, &next, err);
             if (!result && is_directive(file, i, "include"))
                 result = write_include(writer, i + 1, err);
             else if (!result && is_directive(file, i, "fopen") && writer->rules->discovery)
@@ -1106,6 +1247,8 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
                                       " #error \"povgloss: this block isn't closed in the same file: close its brace "
                                       "there\\n\" ",
                                       err);
+            if (!result && !next && writer->rules->marks)
+                result = give_states(writer, i, &next, err);
             if (!result && !next && writer->rules->marks && !fills_array(file, i))
                 result = write_finish_item(writer, i, &next, err);
         }
@@ -1162,6 +1305,16 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
         free(path);
         buffer_free(&writer.out);
     }
+    return result;
+}
+
+enum result scene_declare_states(const struct scene *scene, struct buffer *text, struct error *err)
+{
+    enum result result = RESULT_OK;
+    const char *name = scene->names.data, *end = name + scene->names.size;
+    for (int i = 0; !result && name < end; name += strlen(name) + 1, i++)
+        if (list_has(&scene->surfaces, name) && !list_has(&scene->surface_arrays, name))
+            result = buffer_printf(text, err, "#declare povgloss_of_%d = povgloss_none;\n", i);
     return result;
 }
 

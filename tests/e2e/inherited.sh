@@ -62,7 +62,7 @@ scene "default finish, twice" < <(default_scene '#default { finish { reflection 
 
 # With Gloss() in a default the passes are those of the same scene with that finish written everywhere.
 passes_of() {
-    "$bin/povgloss" passes "$folder/$1.pov" "+L$folder" +Lpovscenes "${size[@]}" --quiet -o "$folder/$1.exr"
+    "$bin/povgloss" passes "$folder/$1.pov" "+L$folder" +Lpovscenes "${size[@]}" "${@:2}" --quiet -o "$folder/$1.exr"
 }
 default_is_as_written() {
     local beginning='#version 3.7; global_settings { assumed_gamma 1 }
@@ -89,4 +89,67 @@ object { Named translate <-1, 1.5, 0> finish { D diffuse 0.2 } }' > "$folder/wri
         idiff -a -fail 1e-4 -hardfail 1e-4 "$folder/default.exr" "$folder/written.exr"
 }
 check "a default with Gloss() is as if it were written in each finish" default_is_as_written
+# ---- finishes and textures through macros
+
+scene "textures made by macros" << 'POV'
+#macro Made(C)
+  texture { // a value, or the texture of an object
+    pigment { rgbt C } finish { reflection 0.3 phong_size 60 }
+  }
+#end
+#macro Items(C) pigment { rgbt C } finish { reflection 0.3 phong_size 60 } #end
+#declare T = Made(<0.2,0.2,0.2,0.5>)
+#declare U = Made(<0.3, 0, 0>)
+object { Floor texture { T finish { diffuse 0.2 } } }
+object { Ball translate x texture { U finish { diffuse 0.2 } } }
+object { Ball translate -x texture { Items(0.1) finish { diffuse 0.1 } } }
+object { Ball scale 0.3 translate <0, 0, -2> Made(<0.1, 0.3, 0.1, 0>) }
+object { Ball scale 0.3 translate <0.7, 0, -2> Made(<0.1, 0.3, 0.1, 0.5>) }
+POV
+parameters_are_as_written() {
+    printf '#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n#include "stage.inc"\n' | tee "$folder/own.pov" \
+        > "$folder/given.pov"
+    cat >> "$folder/given.pov" << 'POV'
+#declare F = finish { reflection 0.3 phong_size 60 }
+#declare T = texture { pigment { rgb <0.2, 0, 0.2> } finish { reflection 0.4 Gloss(50) } }
+#declare G = texture { pigment { rgb 0.1 } finish { reflection 0.2 } }
+#declare A = array[2] { T, G }
+#declare E = array[2]
+#declare E[0] = finish { reflection 0.5 phong_size 40 }
+#declare E[1] = finish { reflection 0 }
+#macro Plain(P, I) object { Ball scale 0.5 translate I*x - 2*x pigment { rgb 0.2 } finish { P } } #end
+#macro More(I, P) object { Ball scale 0.5 translate I*x - 2*x texture { P finish { diffuse 0.4 } } } #end
+#macro Through(P, I) More(I, P) #end
+#macro Of(Array, K, I)
+  object { Ball scale 0.5 translate I*x - 2*x pigment { rgb 0.2 } finish { Array[K] diffuse 0.3 } }
+#end
+object { Floor pigment { rgb 0.2 } finish { F } }
+Plain(F, 0)
+More(1, T)
+Through(G, 2)
+More(3, A[0])
+object { Plain(finish { F diffuse 0.3 }, 4) }
+object { Of(E, 0, 0) translate 1.2*y }
+object { Of(E, 1, 1) translate 1.2*y }
+object { Plain(E[0], 2) translate 1.2*y }
+#declare X = Plain(F, 3)
+object { X translate 1.2*y }
+POV
+    cat >> "$folder/own.pov" << 'POV'
+#macro Place(I) scale 0.5 translate <mod(I, 5) - 2, div(I, 5)*1.2, 0> #end
+object { Floor pigment { rgb 0.2 } finish { reflection 0.3 Gloss(60) } }
+object { Ball Place(0) pigment { rgb 0.2 } finish { reflection 0.3 Gloss(60) } }
+object { Ball Place(1) pigment { rgb <0.2, 0, 0.2> } finish { reflection 0.4 Gloss(50) diffuse 0.4 } }
+object { Ball Place(2) pigment { rgb 0.1 } finish { reflection 0.2 diffuse 0.4 } }
+object { Ball Place(3) pigment { rgb <0.2, 0, 0.2> } finish { reflection 0.4 Gloss(50) diffuse 0.4 } }
+object { Ball Place(4) pigment { rgb 0.2 } finish { reflection 0.3 Gloss(60) diffuse 0.3 } }
+object { Ball Place(5) pigment { rgb 0.2 } finish { reflection 0.5 Gloss(40) diffuse 0.3 } }
+object { Ball Place(6) pigment { rgb 0.2 } finish { diffuse 0.3 } }
+object { Ball Place(7) pigment { rgb 0.2 } finish { reflection 0.5 Gloss(40) } }
+object { Ball Place(8) pigment { rgb 0.2 } finish { reflection 0.3 Gloss(60) } }
+POV
+    passes_of given --gloss auto && passes_of own &&
+        idiff -a -fail 1e-4 -hardfail 1e-4 "$folder/given.exr" "$folder/own.exr"
+}
+check "parameters of macros carry their gloss" parameters_are_as_written
 end_of_scenes
