@@ -34,6 +34,15 @@ static enum result note_arguments(struct scene *scene, const struct scene_file *
     return result;
 }
 
+/* Whether the scene includes a file that isn't rewritten: the macros that it calls keep their parameters. */
+static bool includes_as_it_is(const struct scene *scene)
+{
+    for (int i = 0; i < scene->found_count; i++)
+        if (scene->found[i].file < 0)
+            return true;
+    return false;
+}
+
 static enum result note_macro(struct scene *scene, const struct scene_file *file, int macro, struct error *err)
 {
     enum result result = RESULT_OK;
@@ -42,7 +51,7 @@ static enum result note_macro(struct scene *scene, const struct scene_file *file
         if (find_name(&scene->surfaces, file, token) < 0)
             continue;
         result = add_name(&scene->names, file, token, err);
-        if (!result)
+        if (!result && !includes_as_it_is(scene))
             result = add_name(&scene->surface_macros, file, macro, err);
         if (!result)
             result = note_arguments(scene, file, macro, position, find_name(&scene->surface_arrays, file, token) >= 0, err);

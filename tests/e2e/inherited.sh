@@ -106,6 +106,15 @@ object { Ball translate -x texture { Items(0.1) finish { diffuse 0.1 } } }
 object { Ball scale 0.3 translate <0, 0, -2> Made(<0.1, 0.3, 0.1, 0>) }
 object { Ball scale 0.3 translate <0.7, 0, -2> Made(<0.1, 0.3, 0.1, 0.5>) }
 POV
+scene "macro with a finish called from a file that is written anew" << 'POV'
+#include "strings.inc"
+#declare F = finish { reflection 0.3 phong_size 60 }
+#macro Thing(P, I) object { Ball scale 0.5 translate <I, 0, 0> pigment { rgb 0.2 } finish { P } } #end
+object { Floor pigment { rgb 0.2 } finish { F } }
+Thing(F, 1)
+Parse_String("Thing(F, 0)")
+Parse_String("Thing(F, -1)")
+POV
 parameters_are_as_written() {
     printf '#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n#include "stage.inc"\n' | tee "$folder/own.pov" \
         > "$folder/given.pov"
