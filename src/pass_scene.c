@@ -144,18 +144,23 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
                                "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
                                "    min(povgloss_lower, povgloss_t)>;\n"
                                "  #declare povgloss_last = povgloss_texture; povgloss_count(<-1, 0, -1, povgloss_t>)\n"
-                               "  %s\n#end\n"
+                               "  povgloss_set_default(povgloss_t) %s povgloss_set_default(0)\n#end\n"
                                "#macro povgloss_cover_of_object(povgloss_uv)\n"
                                "  povgloss_see()\n"
-                               "  #declare povgloss_own = <-1, 0, -1, povgloss_t>; povgloss_count(povgloss_own)\n"
-                               "  %s\n#end\n",
+                               "  #declare povgloss_own = <povgloss_default_state.x, povgloss_default_state.y,\n"
+                               "    povgloss_default_state.z, povgloss_t>;\n"
+                               "  povgloss_count(<-1, 0, -1, povgloss_t>)\n"
+                               "  povgloss_set_default(povgloss_t) %s povgloss_set_default(0)\n#end\n",
                                mirror ? thinned : keep,
                                part->copy == SCENE_COPY_CODED ? coded : mirror ? thinned : keep);
     free(thinned);
     return result;
 }
 
-/* What a texture refers to. The state of a finish is a vector: x the exponent of its Gloss() or of the user's choice for the
+/* What a texture refers to. A #default has a state, too, and its finish in two forms: povgloss_plain as it is written, and
+ * povgloss_shiny, which is glossy where the state says so. The latter is the default but while a transparent pigment takes
+ * it.
+ * The state of a finish is a vector: x the exponent of its Gloss() or of the user's choice for the
  * name that is being declared, or -1; y whether it reflects; z the exponent of its highlight's lobe, or -1; t how transparent
  * the pigment with it is, and all layers below. Automatic gloss leaves transparent surfaces alone: what they reflect inside
  * can't be blurred. POV-Ray's specular highlight is a power 1/roughness of the cosine about the half vector, whose angle is
@@ -170,20 +175,27 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#declare povgloss_state = povgloss_none; #declare povgloss_texture = povgloss_none;\n"
         "#declare povgloss_last = povgloss_none; #declare povgloss_own = povgloss_none; #declare povgloss_lower = 1;\n"
         "#declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
+        "#declare povgloss_default_state = povgloss_none; #declare povgloss_value = 0;\n"
+        "#ifdef (povgloss_plain) #undef povgloss_plain #end\n"
         "#declare povgloss_counts = <0, 0>;\n"
         "#macro povgloss_add(povgloss_c) #declare povgloss_counts = povgloss_counts + povgloss_c; #end\n"
         "#macro povgloss_count(povgloss_s)\n"
         "  povgloss_add(<(povgloss_exponent(povgloss_s) >= 0), povgloss_clear(povgloss_s.t)>)\n"
         "#end\n"
-        "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_none; #end\n"
+        "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_default_state; #end\n"
         "#macro povgloss_upper_layer()\n"
-        "  #declare povgloss_lower = povgloss_last.t; #declare povgloss_texture = povgloss_none;\n"
+        "  #declare povgloss_lower = povgloss_last.t; #declare povgloss_texture = povgloss_default_state;\n"
+        "#end\n"
+        "#macro povgloss_set_default(povgloss_c)\n"
+        "  #ifdef (povgloss_plain)\n"
+        "    #if (povgloss_clear(povgloss_c)) #default { finish { povgloss_plain } }\n"
+        "    #else #default { finish { povgloss_shiny } } #end\n"
+        "  #end\n"
         "#end\n"
         "#macro povgloss_layered()\n"
         "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
         "    min(povgloss_lower, povgloss_texture.t)>;\n"
         "  #declare povgloss_last = povgloss_texture;\n"
-        "  povgloss_count(povgloss_last)\n"
         "#end\n"
         "#macro povgloss_begin(povgloss_of)\n"
         "  #declare povgloss_state = povgloss_of; #declare povgloss_reflects = 0; #declare povgloss_phong = -1;\n"
@@ -191,7 +203,10 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#macro povgloss_of_finish(povgloss_s)\n"
         "  povgloss_set(povgloss_s.x, povgloss_s.y, povgloss_s.z)\n"
         "#end\n"
-        "#macro povgloss_of_texture(povgloss_s) #declare povgloss_texture = povgloss_s; #end\n"
+        "#macro povgloss_of_texture(povgloss_s)\n"
+        "  #declare povgloss_texture = povgloss_s;\n"
+        "  povgloss_count(<povgloss_s.x, povgloss_s.y, povgloss_s.z, min(povgloss_lower, povgloss_s.t)>)\n"
+        "#end\n"
         "#macro povgloss_of_material(povgloss_s) #declare povgloss_last = povgloss_s; povgloss_count(povgloss_s) #end\n"
         "#macro povgloss_set(povgloss_x, povgloss_y, povgloss_z)\n"
         "  #declare povgloss_state = <povgloss_x, povgloss_y, povgloss_z, povgloss_state.t>;\n"
@@ -250,7 +265,18 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                "povgloss_exponent(povgloss_state));\n"
                                "  %s\n#end\n"
                                "#macro povgloss_end() povgloss_finish(0) #end\n"
-                               "#macro povgloss_end_of_name() povgloss_finish(1) #end\n",
+                               "#macro povgloss_end_of_name() povgloss_finish(1) #end\n"
+                               "#macro povgloss_enter_default()\n"
+                               "  povgloss_set_default(1) povgloss_layer()\n"
+                               "  #declare povgloss_last = povgloss_default_state;\n"
+                               "#end\n"
+                               "#macro povgloss_leave_default()\n"
+                               "  #declare povgloss_default_state = <povgloss_last.x, povgloss_last.y, povgloss_last.z, 0>;\n"
+                               "  #declare povgloss_plain = finish { };\n"
+                               "  #declare povgloss_shiny = finish { povgloss_begin(povgloss_last) povgloss_end() };\n"
+                               "  povgloss_set_default(0)\n"
+                               "#end\n"
+                               "#macro povgloss_of_default() #ifdef (povgloss_plain) povgloss_plain #end #end\n",
                                part->finish_end);
     if (!result && part->placed)
         result = buffer_printf(text, err,
@@ -285,6 +311,8 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
 {
     bool coded = part->copy == SCENE_COPY_CODED, tracked = part->copy != SCENE_COPY_PLAIN;
     enum result result = tracked ? add_state_macros(scene, text, err) : RESULT_OK;
+    if (!result && tracked)
+        result = scene_declare_states(scene, text, err);
     if (!result && tracked)
         result = add_cover_macros(part, text, err);
     if (!result && tracked)
@@ -385,7 +413,7 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     if (!result)
         result = buffer_add_text(
             text, "#macro povgloss_nothing() sphere { 0, 1e-6 no_image no_reflection no_shadow no_radiosity } #end\n", err);
-    if (!result && has_second_part(scene, id))
+    if (!result)
         result = buffer_add_text(text, "#declare povgloss_default = texture { pigment { rgb 0 } };\n", err);
     /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
     if (!result)

@@ -6,6 +6,7 @@
 #include "gbuffer.h"
 #include "input_file.h"
 #include "lobe.h"
+#include "scene_surfaces.h"
 #include "scene_tokens.h"
 
 #include <stdlib.h>
@@ -240,9 +241,6 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
         scene->plain_mirrors = true;
     if (in_list(file, token, highlight_words))
         scene->highlights = true;
-    if (in_list(file, token, glossy_words) && opens_block(file, token) && is_mark(file, token + 3, "[") &&
-        tokens[token + 2].kind == TOKEN_WORD)
-        return add_name(&scene->surface_arrays, file, token + 2, err);
     if (is_word(file, token, "radiosity") && opens_block(file, token))
         scene->radiosity = true;
     if (is_word(file, token, "ior"))
@@ -369,19 +367,11 @@ static enum result note_clear_names(struct scene *scene, struct error *err)
     return result;
 }
 
-static bool has_name(const struct buffer *names, const char *name)
-{
-    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1)
-        if (!strcmp(names->data + at, name))
-            return true;
-    return false;
-}
-
 /* Notes what the user chose to be glossy. */
 static enum result note_choice(struct scene *scene, const struct gloss_choice *choice, struct error *err)
 {
     for (int i = 0; i < choice->name_count; i++) {
-        if (!has_name(&scene->glossable, choice->names[i].name))
+        if (!list_has(&scene->glossable, choice->names[i].name))
             return error_set(err, RESULT_DATA,
                              "%s: no finish, texture or material is declared by the name %s: `povgloss list` shows those "
                              "that reflect",
@@ -457,7 +447,9 @@ double scene_default_gamma(const struct scene *scene)
 
 enum result scene_settle(struct scene *scene, struct error *err)
 {
-    enum result result = note_clear_names(scene, err);
+    enum result result = scene_note_surfaces(scene, err);
+    if (!result)
+        result = note_clear_names(scene, err);
     if (!result)
         result = count_clear(scene, err);
     return result ? result : note_choice(scene, scene->choice, err);
@@ -499,7 +491,9 @@ void scene_free(struct scene *scene)
     buffer_free(&scene->names);
     buffer_free(&scene->lights);
     buffer_free(&scene->arrays);
+    buffer_free(&scene->surfaces);
     buffer_free(&scene->surface_arrays);
+    buffer_free(&scene->surface_macros);
     buffer_free(&scene->layered);
     buffer_free(&scene->glossable);
     buffer_free(&scene->clear);

@@ -36,7 +36,9 @@ struct scene {
     struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
     struct buffer lights;  /* in the same form: names that were declared as a light_source, */
     struct buffer arrays;  /* as an array filled in its declaration, with a finish written out in it, */
-    struct buffer surface_arrays; /* as an array whose elements textures, finishes or materials begin with, */
+    struct buffer surfaces;  /* what textures, finishes or materials begin with, */
+    struct buffer surface_arrays; /* arrays of such, */
+    struct buffer surface_macros; /* macros with such a parameter; names that were declared */
     struct buffer layered; /* as a texture of several layers, */
     struct buffer glossable; /* as a finish, texture or material, */
     struct buffer clear;     /* as something that may be transparent, */
