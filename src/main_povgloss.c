@@ -272,7 +272,7 @@ static enum result parse(int argc, char **argv, struct command *command, struct 
     command->passes.scene = command->path;
     command->passes.switches = switches;
     command->passes.reads = command->depfile;
-    command->passes.check = !command->no_check;
+    command->passes.check = !command->no_check && !command->filter.quiet;
     command->passes.frames = frames_plan(&switches->frames);
     return result ? result : check_command(command, switches, err);
 }

@@ -612,9 +612,10 @@ static void note_difference(const struct passes *passes, const struct picture_di
     const float *sum = difference->sum, *own = difference->own;
     if (difference->found)
         error_set(note, RESULT_OK,
-                  "%s: with mirrors in place of the gloss %.2g %% of the picture isn't POV-Ray's, most at %d,%d (%.2g %.2g "
-                  "%.2g, POV-Ray's %.2g %.2g %.2g): something there isn't modelled by the passes, see Limits in the README; "
-                  "compare with POV-Ray's picture, and leave what is wrong a mirror by --gloss NAME=inf",
+                  "%s: the passes don't add up to POV-Ray's own picture in %.2g %% of the image, most at pixel %d,%d: %.2g "
+                  "%.2g %.2g in place of %.2g %.2g %.2g; something there isn't modelled (Limits in the README names the "
+                  "usual: fog, media, glass, focal blur): look there at base, specular.* and reflectance.* of povgloss "
+                  "passes, and leave the finish to POV-Ray by --gloss NAME=inf",
                   passes->options->scene, 100 * difference->share, difference->x, difference->y, (double)sum[0],
                   (double)sum[1], (double)sum[2], (double)own[0], (double)own[1], (double)own[2]);
 }
@@ -622,9 +623,11 @@ static void note_difference(const struct passes *passes, const struct picture_di
 enum result passes_check(const struct passes *passes, int frame, const struct gbuffer *gbuffer, struct error *note,
                          struct error *err)
 {
-    /* Radiosity takes fewer samples for a small picture. */
-    const double tolerance = passes->scene.radiosity ? 0.03 : 0.01;
     const struct passes_options *options = passes->options;
+    /* Radiosity is interpolated between random places, others in each picture. */
+    const double tolerance = passes->scene.radiosity ? 0.03 : 0.01;
+    bool single_rays = options->subsample == 1 && !options->switches->antialias && !passes->scene.focal_blur &&
+                       !passes->scene.radiosity;
     struct picture_difference difference;
     struct image sum = {0}, own = {0};
     char number[FRAMES_NUMBER_SIZE];
@@ -633,7 +636,6 @@ enum result passes_check(const struct passes *passes, int frame, const struct gb
         return RESULT_OK;
     frames_number(&options->frames, frame, number);
     const struct pass_images images = images_of(passes, number);
-    bool single_rays = options->subsample == 1 && !options->switches->antialias && !passes->scene.focal_blur;
     enum result result = pass_images_read_own(&images, &own, err);
     if (!result)
         result = compose(gbuffer, &gbuffer->specular, &sum, err);
