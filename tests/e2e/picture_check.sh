@@ -76,22 +76,22 @@ POV
 check "passes__radiosity_and_photons__adds_up" says_nothing light.pov +W320 +H240 -A
 write_scene pixels.pov << POV
 $sun
-box { <-3, 0, 2>, <3, 3, 3> pigment { checker rgb 1 rgb 0 scale 20/image_width } }
+sphere { <3 - 0.01*image_width, 1, -1>, 1 pigment { rgb <0.2, 0.9, 0.3> } }
 POV
-check "passes__details_of_the_size_of_pixels__adds_up" says_nothing pixels.pov +W320 +H240 -A
+check "passes__scene_that_depends_on_the_size__adds_up" says_nothing pixels.pov +W320 +H240 -A
 cat > mesh_camera.pov << 'POV'
 #version 3.7;
 #include "povgloss.inc"
 global_settings { assumed_gamma 1.0 }
 #declare Grid = mesh {
-  #for (Y, 0, 47) #for (X, 0, 63)
-    triangle { <X/16 - 2, 4 - Y/16, 0>, <X/16 - 2, 4 - Y/16, 0.01>, <X/16 - 1.99, 4 - Y/16, 0> }
+  #for (Y, 0, 134) #for (X, 0, 179)
+    triangle { <X/45 - 2, 3 - Y/45, -2>, <X/45 - 2, 3.01 - Y/45, -2>, <X/45 - 1.99, 3 - Y/45, -2> }
   #end #end
 }
-camera { mesh_camera { 1 0 mesh { Grid } } location z*-0.0001 }
+camera { mesh_camera { 1 0 mesh { Grid } } location z*-0.001 }
 POV
 sed '/^camera/d; /^#version/,/^global/d' right.pov >> mesh_camera.pov
-check "passes__a_camera_made_of_a_mesh__adds_up" says_nothing mesh_camera.pov +W64 +H48 -A
+check "passes__a_camera_made_of_a_mesh__adds_up" says_nothing mesh_camera.pov +W180 +H135 -A
 
 # no_own SWITCH...: POV-Ray's own picture isn't drawn.
 no_own() {

@@ -162,6 +162,17 @@ static void picture_check__smallest_defects__are_found_only_above_the_limit(void
     image_free(&own);
 }
 
+static void picture_check__single_pixels__are_the_same(void **state)
+{
+    (void)state;
+    struct image sum = draw(640, 480, 1, 0, 1), own = draw(128, 96, 1, 0, 2);
+    for (int i = 0; i < 60; i++) /* half a percent, of which two are neighbours */
+        image_row(&own, 1, 5 + 9 * (i / 12))[i == 1 ? 6 : 5 + 10 * (i % 12)] += 0.2f;
+    assert_false(compare(&sum, &own, true).found);
+    image_free(&sum);
+    image_free(&own);
+}
+
 static void picture_check__nan_and_infinity__do_not_differ_from_themselves(void **state)
 {
     (void)state;
@@ -191,6 +202,7 @@ int main(void)
         cmocka_unit_test(picture_check__patch__is_found_with_its_place_and_values),
         cmocka_unit_test(picture_check__patch_in_noise__is_found),
         cmocka_unit_test(picture_check__smallest_defects__are_found_only_above_the_limit),
+        cmocka_unit_test(picture_check__single_pixels__are_the_same),
         cmocka_unit_test(picture_check__nan_and_infinity__do_not_differ_from_themselves),
     };
     return cmocka_run_group_tests_name("picture_check", tests, NULL, NULL);
