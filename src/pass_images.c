@@ -307,3 +307,8 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     image_free(&codes);
     return result;
 }
+
+enum result pass_images_read_own(const struct pass_images *images, struct image *image, struct error *err)
+{
+    return read_radiance(images, PASS_OWN, image, err);
+}

@@ -101,6 +101,10 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .second = {.copy = -1},
                        .trailer = sky_white},
+    [PASS_OWN] = {.name = "own",
+                  .full_size = true,
+                  .first = {.copy = SCENE_COPY_PLAIN, .modifiers = ""},
+                  .second = {.copy = -1}},
 };
 
 /* What a copy without textures refers to. */
@@ -401,11 +405,18 @@ static enum result add_photon_macro(enum pass_id id, struct buffer *text, struct
                            err);
 }
 
+bool pass_is_verbatim(const struct scene *scene, enum pass_id id)
+{
+    return id == PASS_OWN && !scene->photons;
+}
+
 enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text, struct error *err)
 {
     const struct pass *pass = &pass_table[id];
     struct scene_part first = first_part(scene, id);
     enum result result = RESULT_OK;
+    if (pass_is_verbatim(scene, id))
+        return buffer_add(text, scene->files[0].source.data, scene->files[0].source.size, err);
     if (scene->version > 0)
         result = buffer_printf(text, err, "#version %.9g;\n", scene->version);
     if (!result && pass->technical)
@@ -442,11 +453,13 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
         return false;
-    return id == PASS_BASE || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
+    return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])
 {
+    if (pass_is_verbatim(scene, id))
+        return;
     needed[first_part(scene, id).copy] = true;
     if (has_second_part(scene, id))
         needed[pass_table[id].second.copy] = true;

@@ -20,6 +20,7 @@ enum pass_id {
     PASS_ENDPOINT_LOW,
     PASS_DIRECTION,
     PASS_EXPONENT,
+    PASS_OWN, /* POV-Ray's own picture of the scene as it is, small and without antialiasing */
     PASS_COUNT,
 };
 
@@ -54,6 +55,10 @@ extern const struct pass pass_table[PASS_COUNT];
  * may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
+/* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are
+ * loaded as in the other passes. */
+bool pass_is_verbatim(const struct scene *scene, enum pass_id id);
+
 /* Marks the kinds of copies that the pass includes. */
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT]);
 
@@ -61,7 +66,7 @@ void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_C
  * rendered. */
 MUST_CHECK enum result pass_discovery_text(const struct scene *scene, struct buffer *text, struct error *err);
 
-/* Appends the pass's scene, which includes the copies' main files by their names. */
+/* Appends the pass's scene, which includes the copies' main files by their names or is the user's own text. */
 MUST_CHECK enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text,
                                        struct error *err);
 

@@ -27,7 +27,7 @@ SH
     } > fake/povray
     chmod +x fake/povray
     printf 'an older picture\n' > output/picture.png
-    run env "PATH=$scratch/fake:$PATH" timeout 60 "$bin/povgloss" render scene.pov "+L$root/povscenes" --quiet \
+    run env "PATH=$scratch/fake:$PATH" timeout 60 "$bin/povgloss" render scene.pov "+L$root/povscenes" \
         -o output/picture.png
 }
 
@@ -74,6 +74,18 @@ SH
 check "a text in place of a PNG" fails 3 "direction/image.png: not a PNG" << 'SH'
 good
 [ "$folder" != direction ] || cp "$here/text.png" image.png
+SH
+check "an error in POV-Ray's own picture names the user's line" fails 4 "File 'scene.pov' line 2: Parse Error" << 'SH'
+good
+[ "$folder" != own ] || { echo "File 'pass.pov' line 2: Parse Error: Hello" >&2; exit 1; }
+SH
+check "an error in a file from a library folder names the user's file" fails 4 "File 'a.inc' line 2: Parse Error" << 'SH'
+good
+[ "$folder" != own ] || { echo "File '../lib0/a.inc' line 2: Parse Error: Hello" >&2; exit 1; }
+SH
+check "POV-Ray's own picture ends early" fails 3 "own/image.exr: " << 'SH'
+good
+[ "$folder" != own ] || cp "$here/cut.exr" image.exr
 SH
 for pass in base specular reflectance position position-low endpoint endpoint-low; do
     check "an image of another size in the $pass pass" fails 3 "9" << SH
