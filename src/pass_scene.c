@@ -15,6 +15,8 @@ static const char end_mirror[] = "povgloss_dark()\n"
                                  "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
                                  "exponent 1 metallic 0 }\n"
                                  "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
+static const char end_haze[] = "povgloss_dark()\n"
+                               "  #if (povgloss_phong >= 0 | povgloss_reflects) reflection { 0 } #end";
 /* The sky is next to black, as a total reflection shows it, which isn't glossy. POV-Ray takes what a finish reflects to the
  * power 1/exponent: 20 makes one half of the sky, 0.001 nothing, and leaves the reflectivity for a later Gloss(). */
 static const char end_reflectance[] = "povgloss_dark()\n"
@@ -49,6 +51,10 @@ const struct pass pass_table[PASS_COUNT] = {
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
+    [PASS_HAZE] = {.name = "haze",
+                   .mirror_colour = mirror_white,
+                   .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
+                   .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_haze}},
     [PASS_REFLECTANCE] = {.name = "reflectance",
                           .full_size = true,
                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
@@ -299,7 +305,7 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
     }
     if (!result)
         result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n", part->modifiers,
-                               scene->atmosphere && !strcmp(scene->atmosphere, "fog") ? " hollow" : "");
+                               scene->atmosphere ? " hollow" : "");
     if (!result && part->coded)
         result = add_coding_texture(pass, text, err);
     if (!result)
@@ -332,10 +338,13 @@ static bool scene_mirrors_gloss(const struct scene *scene)
     return scene->plain_mirrors && (!scene->choice->all || scene->clear.size > 0);
 }
 
-/* The base pass needs its second copy only there, and where the light counts that a glossy surface throws onto others. */
+/* The base pass needs its second copy only there, and where the light counts that a glossy surface throws onto others. Light
+ * under a surface is lost where a second copy of the surface lies on it. */
 static bool has_second_part(const struct scene *scene, enum pass_id id)
 {
-    return pass_table[id].second.copy >= 0 && (id != PASS_BASE || (scene->glossy && (scene_mirrors_gloss(scene) || scene->radiosity)));
+    return pass_table[id].second.copy >= 0 &&
+           (id != PASS_BASE ||
+            (scene->glossy && !scene->limits[SCENE_LIMIT_SUBSURFACE].line && (scene_mirrors_gloss(scene) || scene->radiosity)));
 }
 
 static struct scene_part first_part(const struct scene *scene, enum pass_id id)
@@ -413,6 +422,8 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
+        return false;
+    if (id == PASS_HAZE && !scene->atmosphere)
         return false;
     return id == PASS_BASE || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }

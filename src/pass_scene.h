@@ -13,6 +13,7 @@ enum pass_id {
     PASS_PHOTONS, /* no image: leaves PASS_PHOTONS_FILE in its folder, for those that are run after it */
     PASS_BASE,
     PASS_SPECULAR,
+    PASS_HAZE,
     PASS_REFLECTANCE,
     PASS_POSITION,
     PASS_POSITION_LOW,
@@ -50,7 +51,7 @@ struct pass {
 extern const struct pass pass_table[PASS_COUNT];
 
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some;
- * exponents where there are several, where a texture may mix a glossy surface with another one, or where a total reflection
+ * the haze where the scene has one; exponents where there are several, where a texture may mix a glossy surface with another one, or where a total reflection
  * may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 

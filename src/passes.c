@@ -420,16 +420,14 @@ static enum result note_limits(const struct passes *passes, struct error *note, 
     const struct scene *scene = &passes->scene;
     struct buffer text = {0};
     enum result result = RESULT_OK;
-    if (scene->atmosphere)
-        result = buffer_printf(&text, err,
-                               "; the scene's %s between the eye and a glossy surface is also seen in its reflection; the "
-                               "picture there is too bright by its share",
-                               scene->atmosphere);
-    for (int i = 0; !result && scene_limit(i); i++)
-        if (scene->limits & 1u << i)
-            result = buffer_printf(&text, err, "; %s", scene_limit(i));
+    for (int i = 0; !result && i < SCENE_LIMIT_COUNT; i++) {
+        const struct scene_place *place = &scene->limits[i];
+        if (place->line && (i != SCENE_LIMIT_SUBSURFACE || scene->plain_mirrors))
+            result = buffer_printf(&text, err, "; %s:%d: %s", scene->files[place->file].path, place->line,
+                                   scene_limit_text((enum scene_limit)i));
+    }
     if (!result && text.size)
-        error_set(note, RESULT_OK, "%s: %s", passes->options->scene, text.data + 2);
+        error_set(note, RESULT_OK, "%s", text.data + 2);
     buffer_free(&text);
     return result;
 }

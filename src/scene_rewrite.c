@@ -199,6 +199,15 @@ static enum result replace_block(struct writer *writer, int token, int last, con
     return result ? result : buffer_add_text(&writer->out, text, err);
 }
 
+/* Of a finish that is black no light gets under the surface: `subsurface { translucency X }` leaves X. */
+static enum result write_subsurface(struct writer *writer, int token, int last, struct error *err)
+{
+    enum result result = replace(writer, token, token + 2, "#declare povgloss_dropped =", err);
+    if (!result)
+        result = write_tokens(writer, token + 3, last, err);
+    return result ? result : replace(writer, last, last, "; ", err);
+}
+
 /* In global_settings of a discovery copy: every assumed_gamma goes to the log. */
 static enum result write_gamma_log(struct writer *writer, int first, int end, struct error *err)
 {
@@ -827,6 +836,8 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     bool pigment = is_word(file, token, "pigment") && !pattern;
     if (rules->covers && is_word(file, token, "interior"))
         return write_interior(writer, token, last, err);
+    if (rules->covers && rules->marks && is_word(file, token, "subsurface") && is_word(file, token + 2, "translucency"))
+        return write_subsurface(writer, token, last, err);
     if (rules->marks && last >= writer->end) {
         *next = 0;
         return is_word(file, token, "finish")    ? begin_finish(writer, token, err)
