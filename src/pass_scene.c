@@ -166,7 +166,9 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
  * the pigment with it is, and all layers below. Automatic gloss leaves transparent surfaces alone: what they reflect inside
  * can't be blurred. POV-Ray's specular highlight is a power 1/roughness of the cosine about the half vector, whose angle is
  * half of that from the mirror direction: an exponent of 1/(4 roughness) there. phong_size is an exponent about the mirror
- * direction. */
+ * direction.
+ * povgloss_counts is how many glossy textures came by (x), transparent ones (y), and objects by names of which neither is
+ * known (z). */
 static enum result add_state_macros(const struct scene *scene, struct buffer *text, struct error *err)
 {
     const struct gloss_choice *choice = scene->choice;
@@ -176,10 +178,10 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#declare povgloss_state = povgloss_none; #declare povgloss_texture = povgloss_none;\n"
         "#declare povgloss_last = povgloss_none; #declare povgloss_own = povgloss_none; #declare povgloss_lower = 1;\n"
         "#declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
-        "#declare povgloss_counts = <0, 0>;\n"
+        "#declare povgloss_counts = <0, 0, 0>;\n"
         "#macro povgloss_add(povgloss_c) #declare povgloss_counts = povgloss_counts + povgloss_c; #end\n"
         "#macro povgloss_count(povgloss_s)\n"
-        "  povgloss_add(<(povgloss_exponent(povgloss_s) >= 0), povgloss_clear(povgloss_s.t)>)\n"
+        "  povgloss_add(<(povgloss_exponent(povgloss_s) >= 0), povgloss_clear(povgloss_s.t), 0>)\n"
         "#end\n"
         "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_none; #end\n"
         "#macro povgloss_upper_layer()\n"
@@ -261,6 +263,11 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
     if (!result && part->placed)
         result = buffer_printf(text, err,
                                "#declare povgloss_depth = 0;\n"
+                               "#declare povgloss_default_counts = <0, 0, 0>;\n"
+                               "#macro povgloss_counted_default()\n"
+                               "  #declare povgloss_default_counts =\n"
+                               "    povgloss_default_counts + povgloss_counts - povgloss_before_default;\n"
+                               "#end\n"
                                "#macro povgloss_enter()\n"
                                "  #if (povgloss_depth = 0) #declare povgloss_before = povgloss_counts; #end\n"
                                "  #declare povgloss_depth = povgloss_depth + 1;\n"
@@ -268,8 +275,9 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                "#macro povgloss_leave() #declare povgloss_depth = povgloss_depth - 1; #end\n"
                                "#macro povgloss_place()\n"
                                "  povgloss_leave()\n"
-                               "  #if (povgloss_depth = 0 & povgloss_counts.u = povgloss_before.u &\n"
-                               "       povgloss_counts.v > povgloss_before.v) %s\n"
+                               "  #local povgloss_c = povgloss_counts - povgloss_before;\n"
+                               "  #if (povgloss_depth = 0 & povgloss_c.x = 0 & (povgloss_c.y > 0 |\n"
+                               "       (povgloss_default_counts.x = 0 & povgloss_default_counts.y > 0 & povgloss_c.z = 0))) %s\n"
                                "  #else object { povgloss_object } #end\n"
                                "#end\n",
                                part->placed);
@@ -332,10 +340,18 @@ static enum result add_coded_sky(const struct pass *pass, struct buffer *text, s
     return result ? result : buffer_add_text(text, "}\n", err);
 }
 
+static bool may_hold_clear(const struct scene *scene)
+{
+    for (int i = 0; i < scene->file_count; i++)
+        if (scene->files[i].clear[scene->files[i].list.count] > 0)
+            return true;
+    return false;
+}
+
 /* Whether a mirror without gloss may show a glossy surface. With --gloss all only transparent surfaces are such mirrors. */
 static bool scene_mirrors_gloss(const struct scene *scene)
 {
-    return scene->plain_mirrors && (!scene->choice->all || scene->clear.size > 0);
+    return scene->plain_mirrors && (!scene->choice->all || may_hold_clear(scene));
 }
 
 /* The base pass needs its second copy only there, and where the light counts that a glossy surface throws onto others. Light

@@ -323,6 +323,10 @@ static enum result count_clear(struct scene *scene, struct error *err)
         for (int token = 0; token < file->list.count; token++)
             file->clear[token + 1] = file->clear[token] + (names_clear(scene, file, token) ||
                                                             find_name(&scene->parameters, file, token) >= 0);
+        for (int token = 0; token < file->list.count; token++)
+            scene->clear_default |= (is_directive(file, token, "default") || is_word(file, token, "default")) &&
+                                    opens_block(file, token) &&
+                                    may_be_clear(file, token + 2, file->list.tokens[token + 1].match);
     }
     return RESULT_OK;
 }

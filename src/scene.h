@@ -62,6 +62,7 @@ struct scene {
     bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
     bool mixes;            /* some texture may mix others: a map, an average, a blob, a mesh with a texture at each corner */
     bool radiosity;        /* light that a mirror throws onto other things may be computed */
+    bool clear_default;    /* an object without a texture may be transparent, by a #default */
     bool refracts;         /* something has an index of refraction */
     bool highlights;       /* some finish names the size of a highlight */
     double version;        /* of the scene's first #version; 0: none */

@@ -71,6 +71,7 @@ struct writer {
     int value_end;   /* the token after that block: a texture there is a further layer */
     int end;         /* the token where the block ends that is being written; branches of a conditional may open it, too */
     int object_end;  /* the same of the last block that write_object wrote */
+    int moved_pigment; /* the last that was written before its turn */
     bool given;      /* in the declaration of a name that the user chose to be glossy */
     bool in_macro;
     int conditions;  /* depth of #if, #while, #for, #switch, #macro; which of them are macros */
@@ -313,22 +314,60 @@ static int sibling_before(const struct scene_file *file, int token, const char *
 static int covered_sibling(const struct writer *writer, int token)
 {
     int pigment = sibling_before(writer->file, token, "pigment");
+    if (pigment < 0 && writer->moved_pigment > token &&
+        writer->file->list.tokens[writer->moved_pigment].parent == writer->file->list.tokens[token].parent)
+        return writer->moved_pigment;
     return pigment >= 0 && tracks(writer, pigment + 2, writer->file->list.tokens[pigment + 1].match) ? pigment : -1;
 }
 
-/* A pigment that may be transparent is declared first, so that POV-Ray can say where it is. */
-static enum result write_cover(struct writer *writer, int token, int last, struct error *err)
+static bool in_triangle(const struct scene_file *file, int token)
+{
+    int parent = file->list.tokens[token].parent;
+    return parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
+}
+
+/* What may stand between a finish and its pigment without touching either. */
+static const char *const moved_over_words[] = {"normal", "interior", "finish", NULL};
+
+static enum result add_cover(struct writer *writer, int token, int last, struct error *err)
 {
     static const char *const uv[] = {"uv_mapping", NULL};
     int parent = writer->file->list.tokens[token].parent;
     bool in_texture = parent > 0 && (is_word(writer->file, parent - 1, "texture") ||
                                      is_word(writer->file, parent - 1, "interior_texture"));
+    return buffer_printf(&writer->out, err, "; povgloss_cover_of_%s(%d) ", in_texture ? "texture" : "object",
+                         mentions(writer->file, token + 2, last, uv));
+}
+
+/* A pigment that may be transparent is declared first, so that POV-Ray can say where it is. */
+static enum result write_cover(struct writer *writer, int token, int last, struct error *err)
+{
+    if (token == writer->moved_pigment)
+        return replace(writer, token, last, "", err);
     enum result result = insert_before(writer, token, "#declare povgloss_cover = ", err);
     if (!result)
-        result = insert_after(writer, last, ";", err);
-    return result ? result
-                  : buffer_printf(&writer->out, err, " povgloss_cover_of_%s(%d) ", in_texture ? "texture" : "object",
-                                  mentions(writer->file, token + 2, last, uv));
+        result = insert_after(writer, last, "", err);
+    return result ? result : add_cover(writer, token, last, err);
+}
+
+/* Such a pigment after the finish `finish {...} pigment {...}` at `token` is written before it. */
+static enum result move_cover(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int pigment = last + 1;
+    while (in_list(file, pigment, moved_over_words) && opens_block(file, pigment))
+        pigment = file->list.tokens[pigment + 1].match + 1;
+    if (!is_word(file, pigment, "pigment") || !opens_block(file, pigment) || covered_sibling(writer, token) >= 0)
+        return RESULT_OK;
+    int end = file->list.tokens[pigment + 1].match;
+    if (!tracks(writer, pigment + 2, end) || has_effects(writer, pigment, end) || in_triangle(file, pigment))
+        return RESULT_OK;
+    writer->moved_pigment = pigment;
+    enum result result = insert_before(writer, token, "#declare povgloss_cover =", err);
+    for (int i = pigment; !result && i <= end; i++)
+        result = buffer_printf(&writer->out, err, " %.*s", (int)(file->list.tokens[i].end - file->list.tokens[i].begin),
+                               file->source.data + file->list.tokens[i].begin);
+    return result ? result : add_cover(writer, pigment, end, err);
 }
 
 static enum result begin_finish(struct writer *writer, int token, struct error *err)
@@ -351,8 +390,10 @@ static enum result begin_finish(struct writer *writer, int token, struct error *
 /* A finish that is declared by a name leaves automatic gloss to the textures and objects that use it. */
 static enum result write_finish(struct writer *writer, int token, int last, bool named, struct error *err)
 {
-    enum result result = begin_finish(writer, token, err);
+    enum result result = move_cover(writer, token, last, err);
     int cover = covered_sibling(writer, token);
+    if (!result)
+        result = begin_finish(writer, token, err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
@@ -551,16 +592,22 @@ static const char *const object_words[] = {
     "prism",         "quadric",       "quartic",      "smooth_triangle", "sor",           "sphere",   "sphere_sweep",
     "superellipsoid", "text",         "torus",        "triangle",        "union",         NULL};
 
-/* `object { X` at its keyword counts the textures of X. */
+/* `object { X` at its keyword counts the textures of X, or notes that they aren't known. */
 static enum result add_part_counts(struct writer *writer, int token, struct error *err)
 {
-    int part = is_word(writer->file, token, "object") ? find_name(&writer->scene->names, writer->file, token + 2) : -1;
-    if (part < 0 || is_mark(writer->file, token + 3, "(") || is_mark(writer->file, token + 3, "["))
+    const struct scene_file *file = writer->file;
+    int name = token + 2, part = find_name(&writer->scene->names, file, name);
+    if (!is_word(file, token, "object") || opens_block(file, name) || is_mark(file, name + 1, "(") ||
+        file->list.tokens[name].kind != TOKEN_WORD)
         return RESULT_OK;
-    enum result result = insert_after(writer, token + 2, "", err);
-    return result ? result
-                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #end ",
-                                  part, part);
+    bool known = part >= 0 && !is_mark(file, name + 1, "[");
+    enum result result = known ? insert_after(writer, name, "", err) : insert_before(writer, name, "", err);
+    if (!result && known)
+        result = buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #else ", part,
+                               part);
+    if (!result)
+        result = buffer_add_text(&writer->out, "povgloss_add(<0, 0, 1>) ", err);
+    return result || !known ? result : buffer_add_text(&writer->out, "#end ", err);
 }
 
 /* An object with its textures counted: one of the top level, which may be transparent, is declared and then placed, a declared
@@ -662,12 +709,6 @@ static enum result write_declared_layers(struct writer *writer, int token, int *
         result = buffer_printf(&writer->out, err, "texture { povgloss_layer_%d } ", i);
     *next = last + 1;
     return result ? result : remember(writer, writer->value_name, last, err);
-}
-
-static bool in_triangle(const struct scene_file *file, int token)
-{
-    int parent = file->list.tokens[token].parent;
-    return parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
 }
 
 /* Whether all layers of the texture whose first layer is at `token` may be transparent. */
@@ -829,7 +870,8 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     }
     bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0 &&
                  !is_mark(file, writer->value_name + 1, "[");
-    bool placed = !value && file->list.tokens[token].parent < 0 && !argument && tracks(writer, token + 2, last);
+    bool placed = !value && file->list.tokens[token].parent < 0 && !argument &&
+                  (writer->scene->clear_default || tracks(writer, token + 2, last));
     if (rules->places && (named || placed) && in_list(file, token, object_words))
         return write_object(writer, token, last, named ? writer->value_name : -1, err);
     bool filling = fills_array(file, token), pattern = inside_any(file, token, pattern_words);
@@ -957,10 +999,14 @@ static enum result write_default(struct writer *writer, int token, int *next, st
     *next = last + 1;
     bool breaks = writer->rules->statements != STATEMENTS_STAY && file->list.tokens[token].parent < 0 && !writer->in_macro;
     enum result result = insert_before(writer, token, breaks ? "povgloss_modifiers() } " : "", err);
+    if (!result && writer->rules->places)
+        result = buffer_add_text(&writer->out, "#declare povgloss_before_default = povgloss_counts; ", err);
     if (!result && file->list.tokens[token].kind == TOKEN_WORD) /* the old form, which is a statement */
         result = buffer_add_text(&writer->out, "#", err);
     if (!result && !writer->rules->coded)
         result = write_tokens(writer, token + 1, last, err);
+    if (!result && writer->rules->places)
+        result = insert_after(writer, last, " povgloss_counted_default() ", err);
     return result || !breaks ? result : insert_after(writer, last, " union { povgloss_nothing()", err);
 }
 
@@ -1047,7 +1093,7 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
         const struct scene_file *file = &scene->files[i];
         struct writer writer = {
             .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy,
-            .value_end = -1, .end = file->list.count, .object_end = -1};
+            .value_end = -1, .end = file->list.count, .object_end = -1, .moved_pigment = -1};
         /* POV-Ray takes a byte order mark in a scene but not in an include file, which every copy is. */
         if (file->source.size >= 3 && !memcmp(file->source.data, "\xEF\xBB\xBF", 3))
             writer.at = 3;

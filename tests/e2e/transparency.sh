@@ -99,4 +99,30 @@ under_surfaces() {
     awk "BEGIN { exit !($(rmse "$file-truth.exr" "$file-mirror.exr") < 0.03) }"
 }
 check "light under surfaces beside a glossy ball" under_surfaces
+gloss=(--gloss all=300)
+scene "glass without a name, its finish before its pigment" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 } }
+sphere {
+  <-1, 0.9, -1>, 0.8
+  texture { finish { reflection 0.3 } normal { bumps 0.01 } pigment { rgbt <0.9, 0.5, 0.5, 0.9> } } interior { ior 1.4 }
+}
+sphere {
+  <1, 0.9, -1>, 0.8
+  finish { reflection 0.3 } // a line
+  pigment { rgbf <0.9, 1, 0.9, 0.9> } interior { ior 1.4 }
+}
+POV
+scene "glass by default" << 'POV'
+#declare Two = union {
+  sphere { <-1, 0.9, -1>, 0.8 }
+  sphere { <1, 0.5, -2>, 0.4 pigment { rgb x } finish { reflection 0.3 } }
+}
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 } }
+#default { texture { pigment { rgbf <1, 0.9, 0.9, 0.8> } finish { reflection 0.2 } } }
+sphere { <1, 0.9, -1>, 0.8 interior { ior 1.4 } }
+object { Two translate z*0.3 interior { ior 1.4 } }
+#macro Put(Thing) object { Thing translate x*1.5 } #end
+Put(sphere { <0, 0.4, -2>, 0.3 pigment { rgb y } finish { reflection 0.5 } })
+POV
+gloss=()
 end_of_scenes
