@@ -33,7 +33,7 @@ static const char sky_half[] = "sphere { 0, 9e6 inverse hollow pigment { rgb 0 }
 static const char sky_white[] = "sky_sphere { pigment { rgb 1 } }\n";
 #define MIRRORS "no_reflection no_shadow no_radiosity"
 #define SEEN_IN_MIRRORS "no_image"
-static const char outside[] = "povgloss_modifiers() } object { povgloss_object } union { povgloss_nothing()";
+static const char outside[] = "povgloss_leave_copy() object { povgloss_object } povgloss_enter_copy()";
 /* From this transparency on a surface before a glossy one is looked through. A mirrored ray ends where most of it does. */
 #define CLEAR 0.01
 #define MOSTLY_CLEAR 0.5
@@ -45,7 +45,7 @@ const struct pass pass_table[PASS_COUNT] = {
                       .second = {.copy = -1}},
     [PASS_BASE] = {.name = "base",
                    .full_size = true,
-                   .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "", .placed = outside},
+                   .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "", .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
                        .mirror_colour = mirror_white,
@@ -273,14 +273,33 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                "  #declare povgloss_depth = povgloss_depth + 1;\n"
                                "#end\n"
                                "#macro povgloss_leave() #declare povgloss_depth = povgloss_depth - 1; #end\n"
+                               "#macro povgloss_is_glossy()\n"
+                               "  (povgloss_counts.x > povgloss_before.x | (povgloss_counts.y = povgloss_before.y &\n"
+                               "   (povgloss_default_counts.x > 0 | povgloss_counts.z > povgloss_before.z)))\n"
+                               "#end\n"
+                               "#macro povgloss_is_clear()\n"
+                               "  (povgloss_counts.y > povgloss_before.y | povgloss_default_counts.y > 0)\n"
+                               "#end\n"
                                "#macro povgloss_place()\n"
                                "  povgloss_leave()\n"
-                               "  #local povgloss_c = povgloss_counts - povgloss_before;\n"
-                               "  #if (povgloss_depth = 0 & povgloss_c.x = 0 & (povgloss_c.y > 0 |\n"
-                               "       (povgloss_default_counts.x = 0 & povgloss_default_counts.y > 0 & povgloss_c.z = 0))) %s\n"
+                               "  #if (povgloss_depth = 0 & povgloss_is_clear() & !povgloss_is_glossy()) %s\n"
                                "  #else object { povgloss_object } #end\n"
                                "#end\n",
                                part->placed);
+    if (!result && part->placed)
+        result = buffer_printf(text, err,
+                               "#macro povgloss_place_part()\n"
+                               "  povgloss_leave()\n"
+                               "  #if (povgloss_depth > 0) object { povgloss_object }\n"
+                               "  #else #if (povgloss_is_glossy()) object { povgloss_object %s }\n"
+                               "  #else %s #end #end\n"
+                               "#end\n"
+                               "#macro povgloss_leave_copy() %s #end\n"
+                               "#macro povgloss_enter_copy() %s #end\n",
+                               part->placed_once ? part->modifiers : "",
+                               part->placed_once ? "object { povgloss_object }" : "",
+                               part->placed_once ? "#if (povgloss_depth = 0) povgloss_modifiers() } #end" : "",
+                               part->placed_once ? "#if (povgloss_depth = 0) union { povgloss_nothing() #end" : "");
     if (!result && !is_base(pass))
         result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { povgloss_dark() } }\n", err);
     return result;

@@ -33,6 +33,7 @@ struct scene_part {
     bool coded;             /* the position-coding texture on the union */
     const char *finish_end; /* what povgloss_end puts last into every finish of a marked copy */
     const char *placed;     /* what povgloss_place makes of povgloss_object, where it is transparent without gloss */
+    bool placed_once;       /* that is the only copy of it: it is outside of the union */
 };
 
 struct pass {

@@ -72,6 +72,8 @@ struct writer {
     int end;         /* the token where the block ends that is being written; branches of a conditional may open it, too */
     int object_end;  /* the same of the last block that write_object wrote */
     int moved_pigment; /* the last that was written before its turn */
+    int asked_union; /* the last brace that `splits` was asked about, and what it said */
+    bool asked_splits;
     bool given;      /* in the declaration of a name that the user chose to be glossy */
     bool in_macro;
     int conditions;  /* depth of #if, #while, #for, #switch, #macro; which of them are macros */
@@ -610,11 +612,72 @@ static enum result add_part_counts(struct writer *writer, int token, struct erro
     return result || !known ? result : buffer_add_text(&writer->out, "#end ", err);
 }
 
-/* An object with its textures counted: one of the top level, which may be transparent, is declared and then placed, a declared
- * one, which may be glossy, keeps its counts beside its name (`name`, else -1). */
+/* Whether all that the union at `brace` holds is blocks of objects, which have their own surfaces. */
+static bool holds_objects_only(const struct writer *writer, int brace)
+{
+    static const char *const unknown[] = {"include", "macro", "default", NULL};
+    const struct scene_file *file = writer->file;
+    int last = file->list.tokens[brace].match, i = brace + 1;
+    while (i < last) {
+        if (file->list.tokens[i].kind == TOKEN_DIRECTIVE) {
+            for (int word = 0; unknown[word]; word++)
+                if (is_directive(file, i, unknown[word]))
+                    return false;
+            i = directive_end(file, i, last);
+        } else if (opens_block(file, i)) {
+            int end = file->list.tokens[i + 1].match;
+            if (in_list(file, i, texture_words) || file->list.tokens[end].match != i + 1)
+                return false;
+            i = end + 1;
+        } else if (is_mark(file, i + 1, "(") && find_name(&writer->scene->names, file, i) >= 0)
+            return false;
+        else
+            i++;
+    }
+    return true;
+}
+
+/* Whether the object between these tokens may be transparent. */
+static bool may_be_placed(const struct writer *writer, int first, int last)
+{
+    return writer->scene->clear_default || tracks(writer, first, last);
+}
+
+/* Whether the objects in these braces are placed one by one: those of a union of the top level, or in such a union, that may
+ * hold something transparent. */
+static bool splits(struct writer *writer, int brace)
+{
+    const struct scene_file *file = writer->file;
+    if (brace == writer->asked_union)
+        return writer->asked_splits;
+    if (brace <= 0 || !is_word(file, brace - 1, "union") || writer->in_macro || file->list.tokens[brace].match < 0 ||
+        is_mark(file, brace - 2, "=") || is_mark(file, brace - 2, "(") || is_mark(file, brace - 2, ","))
+        return false;
+    int last = file->list.tokens[brace].match, parent = file->list.tokens[brace].parent;
+    bool found = file->list.tokens[last].match == brace && may_be_placed(writer, brace + 1, last) &&
+                 holds_objects_only(writer, brace) && (parent < 0 || splits(writer, parent));
+    writer->asked_union = brace;
+    return writer->asked_splits = found;
+}
+
+/* A union whose objects are placed one by one is itself in both copies. */
+static enum result write_split(struct writer *writer, int token, int last, struct error *err)
+{
+    bool top = writer->file->list.tokens[token].parent < 0;
+    enum result result = insert_before(writer, token, top ? "povgloss_leave_copy() " : "", err);
+    if (!result)
+        result = insert_after(writer, token + 1, " povgloss_nothing() ", err);
+    if (!result)
+        result = write_tokens(writer, token + 2, last, err);
+    return result ? result : insert_after(writer, last, top ? " povgloss_enter_copy() " : "", err);
+}
+
+/* An object with its textures counted: one of the top level, which may be transparent, is declared and then placed, as is one
+ * of a union that is split; a declared one, which may be glossy, keeps its counts beside its name (`name`, else -1). */
 static enum result write_object(struct writer *writer, int token, int last, int name, struct error *err)
 {
     const struct scene_file *file = writer->file;
+    bool part = splits(writer, file->list.tokens[token].parent);
     int index = find_name(&writer->scene->names, file, name);
     enum result result = name >= 0 ? RESULT_OK : insert_before(writer, token, "#declare povgloss_object = ", err);
     if (!result)
@@ -631,7 +694,7 @@ static enum result write_object(struct writer *writer, int token, int last, int 
     if (!result)
         result = insert_after(writer, last, " ", err);
     if (result || name < 0)
-        return result ? result : buffer_add_text(&writer->out, "povgloss_place() ", err);
+        return result ? result : buffer_add_text(&writer->out, part ? "povgloss_place_part() " : "povgloss_place() ", err);
     return buffer_printf(&writer->out, err,
                          "povgloss_leave() #declare povgloss_holds_%d = povgloss_counts - povgloss_before_%d; ", index,
                          index);
@@ -870,8 +933,10 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     }
     bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0 &&
                  !is_mark(file, writer->value_name + 1, "[");
-    bool placed = !value && file->list.tokens[token].parent < 0 && !argument &&
-                  (writer->scene->clear_default || tracks(writer, token + 2, last));
+    bool placed = !value && file->list.tokens[token].parent < 0 && !argument && may_be_placed(writer, token + 2, last);
+    if (rules->places && !value && splits(writer, brace))
+        return write_split(writer, token, last, err);
+    placed |= !value && splits(writer, file->list.tokens[token].parent);
     if (rules->places && (named || placed) && in_list(file, token, object_words))
         return write_object(writer, token, last, named ? writer->value_name : -1, err);
     bool filling = fills_array(file, token), pattern = inside_any(file, token, pattern_words);
@@ -1093,7 +1158,8 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
         const struct scene_file *file = &scene->files[i];
         struct writer writer = {
             .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy,
-            .value_end = -1, .end = file->list.count, .object_end = -1, .moved_pigment = -1};
+            .value_end = -1, .end = file->list.count, .object_end = -1, .moved_pigment = -1,
+            .asked_union = -1};
         /* POV-Ray takes a byte order mark in a scene but not in an include file, which every copy is. */
         if (file->source.size >= 3 && !memcmp(file->source.data, "\xEF\xBB\xBF", 3))
             writer.at = 3;

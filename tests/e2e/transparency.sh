@@ -99,6 +99,22 @@ under_surfaces() {
     awk "BEGIN { exit !($(rmse "$file-truth.exr" "$file-mirror.exr") < 0.03) }"
 }
 check "light under surfaces beside a glossy ball" under_surfaces
+scene "a union of glass, glossy and dull things" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.2 } }
+union {
+  sphere { <-1, 0.9, 0>, 0.8 pigment { rgbf <0.9, 1, 0.9, 0.9> } finish { reflection 0.2 } interior { ior 1.5 } }
+  union {
+    sphere { <0.3, 0.4, -0.5>, 0.4 pigment { rgb <0.5, 0.2, 0.1> } finish { reflection 0.5 Gloss(50) } }
+    #for (I, 0, 2)
+      sphere { <1.5, 0.3 + I*0.6, 0>, 0.3 pigment { rgbt I/2 } finish { reflection 0.3 #if (I = 0) Gloss(50) #end }
+        interior { ior 1.3 } }
+    #end
+  }
+  box { <-2, 0, 0.8>, <-0.4, 0.5, 1> pigment { rgb y } }
+  object { Ball scale 0.4 translate <0.9, 0, 0.4> pigment { rgb 0.2 } finish { reflection 0.5 Gloss(50) } }
+  rotate y*20
+}
+POV
 gloss=(--gloss all=300)
 scene "glass without a name, its finish before its pigment" << 'POV'
 object { Floor pigment { rgb 0.3 } finish { reflection 0.5 } }
@@ -113,14 +129,13 @@ sphere {
 }
 POV
 scene "glass by default" << 'POV'
-#declare Two = union {
-  sphere { <-1, 0.9, -1>, 0.8 }
-  sphere { <1, 0.5, -2>, 0.4 pigment { rgb x } finish { reflection 0.3 } }
-}
 object { Floor pigment { rgb 0.3 } finish { reflection 0.5 } }
 #default { texture { pigment { rgbf <1, 0.9, 0.9, 0.8> } finish { reflection 0.2 } } }
 sphere { <1, 0.9, -1>, 0.8 interior { ior 1.4 } }
-object { Two translate z*0.3 interior { ior 1.4 } }
+union {
+  sphere { <-1, 0.9, -1>, 0.8 interior { ior 1.4 } }
+  sphere { <0, 0.4, -1>, 0.4 pigment { rgb x } finish { reflection 0.3 } }
+}
 #macro Put(Thing) object { Thing translate x*1.5 } #end
 Put(sphere { <0, 0.4, -2>, 0.3 pigment { rgb y } finish { reflection 0.5 } })
 POV
