@@ -25,6 +25,9 @@ enum pass_id {
 };
 
 #define PASS_PHOTONS_FILE "photons.ph"
+/* Left by the base pass in its folder: index of the file and line of the first object that holds something transparent and
+ * something glossy. */
+#define PASS_MIXED_FILE "mixed.txt"
 
 /* A copy of the scene in a union. */
 struct scene_part {

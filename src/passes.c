@@ -361,13 +361,32 @@ static enum result discover(struct passes *passes, struct error *err)
 }
 
 /* Another frame's. */
-static enum result remove_photons(const struct passes *passes, struct error *err)
+static enum result remove_left(const struct passes *passes, enum pass_id id, const char *name, struct error *err)
 {
     char *path;
-    enum result result = text_printf(&path, err, "%s/%s/" PASS_PHOTONS_FILE, passes->folder.path,
-                                     pass_table[PASS_PHOTONS].name);
+    enum result result = text_printf(&path, err, "%s/%s/%s", passes->folder.path, pass_table[id].name, name);
     if (!result)
         remove(path);
+    free(path);
+    return result;
+}
+
+/* Adds to *note where glass and something glossy are one object. */
+static enum result note_mixed(const struct passes *passes, struct error *note, struct error *err)
+{
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s/" PASS_MIXED_FILE, passes->folder.path, pass_table[PASS_BASE].name);
+    FILE *stream = result ? NULL : fopen(path, "r");
+    int file, line;
+    if (stream && fscanf(stream, "%d %d", &file, &line) == 2 && file >= 0 && file < passes->scene.file_count) {
+        size_t length = strlen(note->text);
+        snprintf(note->text + length, sizeof note->text - length,
+                 "%s%s:%d: this object holds something transparent and something glossy: reflections inside the "
+                 "transparent part are left out; make them objects of their own",
+                 length ? "; " : "", passes->scene.files[file].path, line);
+    }
+    if (stream)
+        fclose(stream);
     free(path);
     return result;
 }
@@ -388,7 +407,9 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     int first = passes->ids[0] == PASS_PHOTONS; /* the others wait for it */
     if (!result && first)
-        result = remove_photons(passes, err);
+        result = remove_left(passes, PASS_PHOTONS, PASS_PHOTONS_FILE, err);
+    if (!result)
+        result = remove_left(passes, PASS_BASE, PASS_MIXED_FILE, err);
     if (!result && first)
         result = povray_run(passes->jobs, 1, 1, passes->environment, no_progress, NULL, &failed, err);
     if (!result) {
@@ -527,6 +548,8 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
         result = collect_reads(passes, err);
     if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
+    if (!result)
+        result = note_mixed(passes, note, err);
     if (!result && !options->keep)
         result = remove_images(passes, &images, err);
     if (result)

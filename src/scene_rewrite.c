@@ -694,7 +694,9 @@ static enum result write_object(struct writer *writer, int token, int last, int 
     if (!result)
         result = insert_after(writer, last, " ", err);
     if (result || name < 0)
-        return result ? result : buffer_add_text(&writer->out, part ? "povgloss_place_part() " : "povgloss_place() ", err);
+        return result ? result
+                      : buffer_printf(&writer->out, err, "povgloss_place%s(%d, %d) ", part ? "_part" : "",
+                                      (int)(file - writer->scene->files), file->list.tokens[token].line);
     return buffer_printf(&writer->out, err,
                          "povgloss_leave() #declare povgloss_holds_%d = povgloss_counts - povgloss_before_%d; ", index,
                          index);

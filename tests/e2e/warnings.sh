@@ -44,6 +44,15 @@ check "subsurface light without plain mirrors" says_nothing "$lit" '' "$glossy"
 check "subsurface light and a plain mirror" says \
     '3: with subsurface light, glossy surfaces that are seen in a mirror reflect nothing there' "$lit" '' "$glossy" \
     'sphere { y, 1 pigment { rgb 1 } finish { reflection 0.2 } }'
+check "media in an object" says \
+    '7: media in an object neither dim nor tint the reflection of a glossy surface in or behind it' '' '' "$glossy" \
+    'sphere { y, 1 hollow pigment { rgbt 1 } interior { media { emission 0.1 } } }'
+glass='pigment { rgbt 0.9 } finish { reflection 0.1 }'
+check "glass and gloss in one object" says "7: this object holds something transparent and something glossy: \
+reflections inside the transparent part are left out; make them objects of their own" '' '' "$glossy" \
+    "difference { sphere { y, 1 $glass } box { 0, 2 pigment { rgb 1 } finish { $glossy } } }"
+check "glass and gloss in one union" says_nothing '' '' "$glossy" \
+    "union { sphere { y, 1 $glass } box { 0, 2 pigment { rgb 1 } finish { $glossy } } }"
 check "two of them" says "6: irid in a glossy finish doesn't tint its reflection; scene.pov:4: focal blur leaves glossy reflections as sharp \
 as they are" '' 'aperture 0.2 blur_samples 4 focal_point 0' "irid { 0.3 } $glossy"
 end_of_tests
