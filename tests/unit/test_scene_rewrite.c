@@ -351,7 +351,7 @@ static void copy__lights__where_they_are_needed(void **state)
          "#declare Place = <1, 2, 3>; light_source { A[0] }"},
         {MIRROR, "#declare L = light_source { 0 rgb 1 } object { L translate x } object { M }",
          "#declare L = light_source { 0 rgb 1 fade_distance 1e-9 fade_power 20 } object { L translate x } object { M }"},
-        {BASE2, "light_group { light_source { 0 rgb 1 } object { O } global_lights off }", NULL},
+        {BASE2, "light_group { light_source { 0 rgb 1 } sphere { 0, 1 } global_lights off }", NULL},
         {CODED, "light_group { union { light_source { 0 rgb 1 } } }", NULL},
     };
     ASSERT_REWRITINGS(cases);
@@ -448,10 +448,16 @@ static void base__transparent_objects_of_the_top_level__placed_by_povray(void **
     static const struct rewriting cases[] = {
         {SCENE_COPY_BASE_FIRST, "sphere { 0, 1 pigment { rgbt 1 } }",
          "#declare povgloss_object = sphere { povgloss_enter() 0, 1 " COVER("pigment { rgbt 1 }", "object")
-         "} povgloss_place() "},
+         "} povgloss_place(0, 1) "},
         {BASE2, "#if (1) object { A texture { pigment { rgbt 1 } } } #end",
-         "#if (1) #declare povgloss_object = object { povgloss_enter() A " TEXTURE COVER("pigment { rgbt 1 }", "texture")
-         "} } povgloss_place() #end"},
+         "#if (1) #declare povgloss_object = object { povgloss_enter() povgloss_add(<0, 0, 1>) A " TEXTURE
+         COVER("pigment { rgbt 1 }", "texture") "} } povgloss_place(0, 1) #end"},
+        {BASE2, "union { sphere { 0, 1 pigment { rgbt 1 } } rotate y }",
+         "povgloss_leave_copy() union { povgloss_nothing() #declare povgloss_object = sphere { povgloss_enter() 0, 1 "
+         COVER("pigment { rgbt 1 }", "object") "} povgloss_place_part(0, 1) rotate y } povgloss_enter_copy() "},
+        {BASE2, "union { sphere { 0, 1 } pigment { rgbt 1 } }",
+         "#declare povgloss_object = union { povgloss_enter() sphere { 0, 1 } " COVER("pigment { rgbt 1 }", "object")
+         "} povgloss_place(0, 1) "},
         {SCENE_COPY_BASE_FIRST, "sphere { 0, 1 pigment { rgb 1 } } union { sphere { 0, 1 } }", NULL},
         {BASE, "sphere { 0, 1 pigment { rgbt 1 } }", NULL},
     };
