@@ -45,7 +45,8 @@ const struct pass pass_table[PASS_COUNT] = {
                       .second = {.copy = -1}},
     [PASS_BASE] = {.name = "base",
                    .full_size = true,
-                   .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "", .placed = outside, .placed_once = true},
+                   .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "",
+                             .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
                        .mirror_colour = mirror_white,
@@ -389,7 +390,8 @@ static bool has_second_part(const struct scene *scene, enum pass_id id)
 {
     return pass_table[id].second.copy >= 0 &&
            (id != PASS_BASE ||
-            (scene->glossy && !scene->limits[SCENE_LIMIT_SUBSURFACE].line && (scene_mirrors_gloss(scene) || scene->radiosity)));
+            (scene->glossy && !scene->limits[SCENE_LIMIT_SUBSURFACE].line &&
+             (scene_mirrors_gloss(scene) || scene->radiosity)));
 }
 
 static struct scene_part first_part(const struct scene *scene, enum pass_id id)

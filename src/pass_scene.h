@@ -54,9 +54,9 @@ struct pass {
 
 extern const struct pass pass_table[PASS_COUNT];
 
-/* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some;
- * the haze where the scene has one; exponents where there are several, where a texture may mix a glossy surface with another one, or where a total reflection
- * may be taken for one. */
+/* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
+ * where it has one; exponents where there are several, where a texture may mix a glossy surface with another one, or where
+ * a total reflection may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Marks the kinds of copies that the pass includes. */
