@@ -15,6 +15,8 @@ static const char end_mirror[] = "povgloss_dark()\n"
                                  "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
                                  "exponent 1 metallic 0 }\n"
                                  "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
+static const char end_haze[] = "povgloss_dark()\n"
+                               "  #if (povgloss_phong >= 0 | povgloss_reflects) reflection { 0 } #end";
 /* The sky is next to black, as a total reflection shows it, which isn't glossy. POV-Ray takes what a finish reflects to the
  * power 1/exponent: 20 makes one half of the sky, 0.001 nothing, and leaves the reflectivity for a later Gloss(). */
 static const char end_reflectance[] = "povgloss_dark()\n"
@@ -31,7 +33,7 @@ static const char sky_half[] = "sphere { 0, 9e6 inverse hollow pigment { rgb 0 }
 static const char sky_white[] = "sky_sphere { pigment { rgb 1 } }\n";
 #define MIRRORS "no_reflection no_shadow no_radiosity"
 #define SEEN_IN_MIRRORS "no_image"
-static const char outside[] = "povgloss_modifiers() } object { povgloss_object } union { povgloss_nothing()";
+static const char outside[] = "povgloss_leave_copy() object { povgloss_object } povgloss_enter_copy()";
 /* From this transparency on a surface before a glossy one is looked through. A mirrored ray ends where most of it does. */
 #define CLEAR 0.01
 #define MOSTLY_CLEAR 0.5
@@ -43,12 +45,17 @@ const struct pass pass_table[PASS_COUNT] = {
                       .second = {.copy = -1}},
     [PASS_BASE] = {.name = "base",
                    .full_size = true,
-                   .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "", .placed = outside},
+                   .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "",
+                             .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
+    [PASS_HAZE] = {.name = "haze",
+                   .mirror_colour = mirror_white,
+                   .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
+                   .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_haze}},
     [PASS_REFLECTANCE] = {.name = "reflectance",
                           .full_size = true,
                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
@@ -169,7 +176,9 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
  * the pigment with it is, and all layers below. Automatic gloss leaves transparent surfaces alone: what they reflect inside
  * can't be blurred. POV-Ray's specular highlight is a power 1/roughness of the cosine about the half vector, whose angle is
  * half of that from the mirror direction: an exponent of 1/(4 roughness) there. phong_size is an exponent about the mirror
- * direction. */
+ * direction.
+ * povgloss_counts is how many glossy textures came by (x), transparent ones (y), and objects by names of which neither is
+ * known (z). */
 static enum result add_state_macros(const struct scene *scene, struct buffer *text, struct error *err)
 {
     const struct gloss_choice *choice = scene->choice;
@@ -181,10 +190,10 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
         "#declare povgloss_default_state = povgloss_none; #declare povgloss_value = 0;\n"
         "#ifdef (povgloss_plain) #undef povgloss_plain #end\n"
-        "#declare povgloss_counts = <0, 0>;\n"
+        "#declare povgloss_counts = <0, 0, 0>;\n"
         "#macro povgloss_add(povgloss_c) #declare povgloss_counts = povgloss_counts + povgloss_c; #end\n"
         "#macro povgloss_count(povgloss_s)\n"
-        "  povgloss_add(<(povgloss_exponent(povgloss_s) >= 0), povgloss_clear(povgloss_s.t)>)\n"
+        "  povgloss_add(<(povgloss_exponent(povgloss_s) >= 0), povgloss_clear(povgloss_s.t), 0>)\n"
         "#end\n"
         "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_default_state; #end\n"
         "#macro povgloss_upper_layer()\n"
@@ -285,18 +294,53 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
     if (!result && part->placed)
         result = buffer_printf(text, err,
                                "#declare povgloss_depth = 0;\n"
+                               "#declare povgloss_default_counts = <0, 0, 0>;\n"
+                               "#macro povgloss_counted_default()\n"
+                               "  #declare povgloss_default_counts =\n"
+                               "    povgloss_default_counts + povgloss_counts - povgloss_before_default;\n"
+                               "#end\n"
                                "#macro povgloss_enter()\n"
                                "  #if (povgloss_depth = 0) #declare povgloss_before = povgloss_counts; #end\n"
                                "  #declare povgloss_depth = povgloss_depth + 1;\n"
                                "#end\n"
                                "#macro povgloss_leave() #declare povgloss_depth = povgloss_depth - 1; #end\n"
-                               "#macro povgloss_place()\n"
+                               "#macro povgloss_is_glossy()\n"
+                               "  (povgloss_counts.x > povgloss_before.x | (povgloss_counts.y = povgloss_before.y &\n"
+                               "   (povgloss_default_counts.x > 0 | povgloss_counts.z > povgloss_before.z)))\n"
+                               "#end\n"
+                               "#macro povgloss_is_clear()\n"
+                               "  (povgloss_counts.y > povgloss_before.y | povgloss_default_counts.y > 0)\n"
+                               "#end\n"
+                               "#macro povgloss_place(povgloss_f, povgloss_l)\n"
                                "  povgloss_leave()\n"
-                               "  #if (povgloss_depth = 0 & povgloss_counts.u = povgloss_before.u &\n"
-                               "       povgloss_counts.v > povgloss_before.v) %s\n"
-                               "  #else object { povgloss_object } #end\n"
+                               "  #if (povgloss_depth = 0 & povgloss_is_clear() & !povgloss_is_glossy()) %s\n"
+                               "  #else object { povgloss_object } povgloss_note_mixed(povgloss_f, povgloss_l) #end\n"
+                               "#end\n"
+                               "#macro povgloss_note_mixed(povgloss_f, povgloss_l)\n"
+                               "  #if (povgloss_depth = 0 & povgloss_is_glossy() & povgloss_counts.y > povgloss_before.y)\n"
+                               "    #ifndef (povgloss_noted)\n"
+                               "      #declare povgloss_noted = 1;\n"
+                               "      #fopen povgloss_mixed \"" PASS_MIXED_FILE "\" write\n"
+                               "      #write (povgloss_mixed, str(povgloss_f, 0, 0), \" \", str(povgloss_l, 0, 0))\n"
+                               "      #fclose povgloss_mixed\n"
+                               "    #end\n"
+                               "  #end\n"
                                "#end\n",
                                part->placed);
+    if (!result && part->placed)
+        result = buffer_printf(text, err,
+                               "#macro povgloss_place_part(povgloss_f, povgloss_l)\n"
+                               "  povgloss_leave() povgloss_note_mixed(povgloss_f, povgloss_l)\n"
+                               "  #if (povgloss_depth > 0) object { povgloss_object }\n"
+                               "  #else #if (povgloss_is_glossy()) object { povgloss_object %s }\n"
+                               "  #else %s #end #end\n"
+                               "#end\n"
+                               "#macro povgloss_leave_copy() %s #end\n"
+                               "#macro povgloss_enter_copy() %s #end\n",
+                               part->placed_once ? part->modifiers : "",
+                               part->placed_once ? "object { povgloss_object }" : "",
+                               part->placed_once ? "#if (povgloss_depth = 0) povgloss_modifiers() } #end" : "",
+                               part->placed_once ? "#if (povgloss_depth = 0) union { povgloss_nothing() #end" : "");
     if (!result && !is_base(pass))
         result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { povgloss_dark() } }\n", err);
     return result;
@@ -331,7 +375,7 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
     }
     if (!result)
         result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n", part->modifiers,
-                               scene->atmosphere && !strcmp(scene->atmosphere, "fog") ? " hollow" : "");
+                               scene->atmosphere ? " hollow" : "");
     if (!result && part->coded)
         result = add_coding_texture(pass, text, err);
     if (!result)
@@ -358,16 +402,28 @@ static enum result add_coded_sky(const struct pass *pass, struct buffer *text, s
     return result ? result : buffer_add_text(text, "}\n", err);
 }
 
+static bool may_hold_clear(const struct scene *scene)
+{
+    for (int i = 0; i < scene->file_count; i++)
+        if (scene->files[i].clear[scene->files[i].list.count] > 0)
+            return true;
+    return false;
+}
+
 /* Whether a mirror without gloss may show a glossy surface. With --gloss all only transparent surfaces are such mirrors. */
 static bool scene_mirrors_gloss(const struct scene *scene)
 {
-    return scene->plain_mirrors && (!scene->choice->all || scene->clear.size > 0);
+    return scene->plain_mirrors && (!scene->choice->all || may_hold_clear(scene));
 }
 
-/* The base pass needs its second copy only there, and where the light counts that a glossy surface throws onto others. */
+/* The base pass needs its second copy only there, and where the light counts that a glossy surface throws onto others. Light
+ * under a surface is lost where a second copy of the surface lies on it. */
 static bool has_second_part(const struct scene *scene, enum pass_id id)
 {
-    return pass_table[id].second.copy >= 0 && (id != PASS_BASE || (scene->glossy && (scene_mirrors_gloss(scene) || scene->radiosity)));
+    return pass_table[id].second.copy >= 0 &&
+           (id != PASS_BASE ||
+            (scene->glossy && !scene->limits[SCENE_LIMIT_SUBSURFACE].line &&
+             (scene_mirrors_gloss(scene) || scene->radiosity)));
 }
 
 static struct scene_part first_part(const struct scene *scene, enum pass_id id)
@@ -452,6 +508,8 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
+        return false;
+    if (id == PASS_HAZE && !scene->atmosphere)
         return false;
     return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }

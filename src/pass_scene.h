@@ -13,6 +13,7 @@ enum pass_id {
     PASS_PHOTONS, /* no image: leaves PASS_PHOTONS_FILE in its folder, for those that are run after it */
     PASS_BASE,
     PASS_SPECULAR,
+    PASS_HAZE,
     PASS_REFLECTANCE,
     PASS_POSITION,
     PASS_POSITION_LOW,
@@ -25,6 +26,9 @@ enum pass_id {
 };
 
 #define PASS_PHOTONS_FILE "photons.ph"
+/* Left by the base pass in its folder: index of the file and line of the first object that holds something transparent and
+ * something glossy. */
+#define PASS_MIXED_FILE "mixed.txt"
 
 /* A copy of the scene in a union. */
 struct scene_part {
@@ -33,6 +37,7 @@ struct scene_part {
     bool coded;             /* the position-coding texture on the union */
     const char *finish_end; /* what povgloss_end puts last into every finish of a marked copy */
     const char *placed;     /* what povgloss_place makes of povgloss_object, where it is transparent without gloss */
+    bool placed_once;       /* that is the only copy of it: it is outside of the union */
 };
 
 struct pass {
@@ -50,9 +55,9 @@ struct pass {
 
 extern const struct pass pass_table[PASS_COUNT];
 
-/* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some;
- * exponents where there are several, where a texture may mix a glossy surface with another one, or where a total reflection
- * may be taken for one. */
+/* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
+ * where it has one; exponents where there are several, where a texture may mix a glossy surface with another one, or where
+ * a total reflection may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are

@@ -419,13 +419,32 @@ static enum result discover(struct passes *passes, struct error *err)
 }
 
 /* Another frame's. */
-static enum result remove_photons(const struct passes *passes, struct error *err)
+static enum result remove_left(const struct passes *passes, enum pass_id id, const char *name, struct error *err)
 {
     char *path;
-    enum result result = text_printf(&path, err, "%s/%s/" PASS_PHOTONS_FILE, passes->folder.path,
-                                     pass_table[PASS_PHOTONS].name);
+    enum result result = text_printf(&path, err, "%s/%s/%s", passes->folder.path, pass_table[id].name, name);
     if (!result)
         remove(path);
+    free(path);
+    return result;
+}
+
+/* Adds to *note where glass and something glossy are one object. */
+static enum result note_mixed(const struct passes *passes, struct error *note, struct error *err)
+{
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s/" PASS_MIXED_FILE, passes->folder.path, pass_table[PASS_BASE].name);
+    FILE *stream = result ? NULL : fopen(path, "r");
+    int file, line;
+    if (stream && fscanf(stream, "%d %d", &file, &line) == 2 && file >= 0 && file < passes->scene.file_count) {
+        size_t length = strlen(note->text);
+        snprintf(note->text + length, sizeof note->text - length,
+                 "%s%s:%d: this object holds something transparent and something glossy: reflections inside the "
+                 "transparent part are left out; make them objects of their own",
+                 length ? "; " : "", passes->scene.files[file].path, line);
+    }
+    if (stream)
+        fclose(stream);
     free(path);
     return result;
 }
@@ -446,7 +465,9 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     int first = passes->ids[0] == PASS_PHOTONS; /* the others wait for it */
     if (!result && first)
-        result = remove_photons(passes, err);
+        result = remove_left(passes, PASS_PHOTONS, PASS_PHOTONS_FILE, err);
+    if (!result)
+        result = remove_left(passes, PASS_BASE, PASS_MIXED_FILE, err);
     if (!result && first)
         result = povray_run(passes->jobs, 1, 1, passes->environment, no_progress, NULL, &failed, err);
     if (!result) {
@@ -478,16 +499,14 @@ static enum result note_limits(const struct passes *passes, struct error *note, 
     const struct scene *scene = &passes->scene;
     struct buffer text = {0};
     enum result result = RESULT_OK;
-    if (scene->atmosphere)
-        result = buffer_printf(&text, err,
-                               "; the scene's %s between the eye and a glossy surface is also seen in its reflection; the "
-                               "picture there is too bright by its share",
-                               scene->atmosphere);
-    for (int i = 0; !result && scene_limit(i); i++)
-        if (scene->limits & 1u << i)
-            result = buffer_printf(&text, err, "; %s", scene_limit(i));
+    for (int i = 0; !result && i < SCENE_LIMIT_COUNT; i++) {
+        const struct scene_place *place = &scene->limits[i];
+        if (place->line && (i != SCENE_LIMIT_SUBSURFACE || scene->plain_mirrors))
+            result = buffer_printf(&text, err, "; %s:%d: %s", scene->files[place->file].path, place->line,
+                                   scene_limit_text((enum scene_limit)i));
+    }
     if (!result && text.size)
-        error_set(note, RESULT_OK, "%s: %s", passes->options->scene, text.data + 2);
+        error_set(note, RESULT_OK, "%s", text.data + 2);
     buffer_free(&text);
     return result;
 }
@@ -600,6 +619,8 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
         result = collect_reads(passes, err);
     if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
+    if (!result)
+        result = note_mixed(passes, note, err);
     if (!result)
         result = remove_images(passes, &images, err);
     if (result)

@@ -184,18 +184,23 @@ static enum result note_variables(struct scene *scene, const struct scene_file *
 /* What the passes can't hold: a word in a block of this name. */
 static const struct limit {
     const char *word, *block, *effect;
-} limits[] = {
-    {"exponent", "reflection", "the exponent of a glossy reflection counts as 1"},
-    {"reflection_exponent", "finish", "the reflection_exponent of a glossy finish counts as 1"},
-    {"irid", "finish", "irid in a glossy finish doesn't tint its reflection"},
-    {"aperture", "camera", "focal blur leaves glossy reflections as sharp as they are"},
-    {"save_file", "photons", "photons that the scene saves aren't reflected by glossy surfaces"},
+} limits[SCENE_LIMIT_COUNT] = {
+    [SCENE_LIMIT_EXPONENT] = {"exponent", "reflection", "the exponent of a glossy reflection counts as 1"},
+    [SCENE_LIMIT_REFLECTION_EXPONENT] = {"reflection_exponent", "finish",
+                                         "the reflection_exponent of a glossy finish counts as 1"},
+    [SCENE_LIMIT_IRID] = {"irid", "finish", "irid in a glossy finish doesn't tint its reflection"},
+    [SCENE_LIMIT_FOCAL_BLUR] = {"aperture", "camera", "focal blur leaves glossy reflections as sharp as they are"},
+    [SCENE_LIMIT_SAVED_PHOTONS] = {"save_file", "photons",
+                                   "photons that the scene saves aren't reflected by glossy surfaces"},
+    [SCENE_LIMIT_SUBSURFACE] = {"subsurface", "global_settings",
+                                "with subsurface light, glossy surfaces that are seen in a mirror reflect nothing there"},
+    [SCENE_LIMIT_MEDIA] = {"media", "interior",
+                           "media in an object neither dim nor tint the reflection of a glossy surface in or behind it"},
 };
-#define LIMIT_COUNT ((int)(sizeof limits / sizeof *limits))
 
-const char *scene_limit(int index)
+const char *scene_limit_text(enum scene_limit limit)
 {
-    return index < LIMIT_COUNT ? limits[index].effect : NULL;
+    return limits[limit].effect;
 }
 
 /* Whether the finish at this brace reflects, or may since it begins with a name. */
@@ -208,11 +213,12 @@ static bool may_reflect(const struct scene *scene, const struct scene_file *file
 static void note_limits(struct scene *scene, const struct scene_file *file, int token)
 {
     int brace = file->list.tokens[token].parent;
-    for (int i = 0; brace > 0 && i < LIMIT_COUNT; i++) {
+    for (int i = 0; brace > 0 && i < SCENE_LIMIT_COUNT; i++) {
         bool one = file->list.tokens[token + 1].kind == TOKEN_NUMBER && number_value(file, token + 1) == 1;
         if (is_word(file, token, limits[i].word) && is_word(file, brace - 1, limits[i].block) && !one &&
-            (strcmp(limits[i].block, "finish") || may_reflect(scene, file, brace)))
-            scene->limits |= 1u << i;
+            (strcmp(limits[i].block, "finish") || may_reflect(scene, file, brace)) && !scene->limits[i].line)
+            scene->limits[i] =
+                (struct scene_place){.file = (int)(file - scene->files), .line = file->list.tokens[token].line};
     }
 }
 
@@ -317,6 +323,10 @@ static enum result count_clear(struct scene *scene, struct error *err)
         for (int token = 0; token < file->list.count; token++)
             file->clear[token + 1] = file->clear[token] + (names_clear(scene, file, token) ||
                                                             find_name(&scene->parameters, file, token) >= 0);
+        for (int token = 0; token < file->list.count; token++)
+            scene->clear_default |= (is_directive(file, token, "default") || is_word(file, token, "default")) &&
+                                    opens_block(file, token) &&
+                                    may_be_clear(file, token + 2, file->list.tokens[token + 1].match);
     }
     return RESULT_OK;
 }

@@ -71,6 +71,9 @@ struct writer {
     int value_end;   /* the token after that block: a texture there is a further layer */
     int end;         /* the token where the block ends that is being written; branches of a conditional may open it, too */
     int object_end;  /* the same of the last block that write_object wrote */
+    int moved_pigment; /* the last that was written before its turn */
+    int asked_union; /* the last brace that `splits` was asked about, and what it said */
+    bool asked_splits;
     bool given;      /* in the declaration of a name that the user chose to be glossy */
     bool in_macro;
     bool in_default; /* in the braces of a #default */
@@ -198,6 +201,15 @@ static enum result replace_block(struct writer *writer, int token, int last, con
     if (!result)
         result = insert_after(writer, last, "; ", err);
     return result ? result : buffer_add_text(&writer->out, text, err);
+}
+
+/* Of a finish that is black no light gets under the surface: `subsurface { translucency X }` leaves X. */
+static enum result write_subsurface(struct writer *writer, int token, int last, struct error *err)
+{
+    enum result result = replace(writer, token, token + 2, "#declare povgloss_dropped =", err);
+    if (!result)
+        result = write_tokens(writer, token + 3, last, err);
+    return result ? result : replace(writer, last, last, "; ", err);
 }
 
 /* In global_settings of a discovery copy: every assumed_gamma goes to the log. */
@@ -360,10 +372,13 @@ static int sibling_before(const struct scene_file *file, int token, const char *
 }
 
 /* What a finish gets its transparency from: the last pigment, texture or material before it in the same braces, or -1. */
-static int surface_before(const struct scene_file *file, int token)
+static int surface_before(const struct writer *writer, int token)
 {
     static const char *const words[] = {"pigment", "texture", "material"};
+    const struct scene_file *file = writer->file;
     int last = -1;
+    if (writer->moved_pigment > token && file->list.tokens[writer->moved_pigment].parent == file->list.tokens[token].parent)
+        return writer->moved_pigment;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         int block = sibling_before(file, token, words[i]);
         last = block > last ? block : last;
@@ -374,7 +389,7 @@ static int surface_before(const struct scene_file *file, int token)
 /* The same if its transparency is tracked, else -1. */
 static int covered_sibling(const struct writer *writer, int token)
 {
-    int block = surface_before(writer->file, token);
+    int block = surface_before(writer, token);
     return block >= 0 && tracks(writer, block + 2, writer->file->list.tokens[block + 1].match) ? block : -1;
 }
 
@@ -392,20 +407,39 @@ static bool has_finish_after(const struct scene_file *file, int last)
     return false;
 }
 
+static bool in_triangle(const struct scene_file *file, int token)
+{
+    int parent = file->list.tokens[token].parent;
+    return parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
+}
+
+/* What may stand between a finish and its pigment without touching either. */
+static const char *const moved_over_words[] = {"normal", "interior", "finish", NULL};
+
+static bool in_texture(const struct scene_file *file, int token)
+{
+    int parent = file->list.tokens[token].parent;
+    return parent > 0 && (is_word(file, parent - 1, "texture") || is_word(file, parent - 1, "interior_texture"));
+}
+
+static enum result add_cover(struct writer *writer, int token, int last, struct error *err)
+{
+    static const char *const uv[] = {"uv_mapping", NULL};
+    return buffer_printf(&writer->out, err, "; povgloss_cover_of_%s(%d) ", in_texture(writer->file, token) ? "texture" : "object",
+                         mentions(writer->file, token + 2, last, uv));
+}
+
 /* A pigment that may be transparent is declared first, so that POV-Ray can say where it is. */
 static enum result write_cover(struct writer *writer, int token, int last, struct error *err)
 {
-    static const char *const uv[] = {"uv_mapping", NULL};
-    int parent = writer->file->list.tokens[token].parent;
-    bool in_texture = parent > 0 && (is_word(writer->file, parent - 1, "texture") ||
-                                     is_word(writer->file, parent - 1, "interior_texture"));
+    if (token == writer->moved_pigment)
+        return replace(writer, token, last, "", err);
     enum result result = insert_before(writer, token, "#declare povgloss_cover = ", err);
     if (!result)
-        result = insert_after(writer, last, ";", err);
+        result = insert_after(writer, last, "", err);
     if (!result)
-        result = buffer_printf(&writer->out, err, " povgloss_cover_of_%s(%d) ", in_texture ? "texture" : "object",
-                               mentions(writer->file, token + 2, last, uv));
-    if (result || in_texture || !writer->rules->marks || has_finish_after(writer->file, last))
+        result = add_cover(writer, token, last, err);
+    if (result || in_texture(writer->file, token) || !writer->rules->marks || has_finish_after(writer->file, last))
         return result;
     return buffer_add_text(&writer->out,
                            writer->rules->covers ? "povgloss_count(povgloss_own) povgloss_hide(povgloss_own) "
@@ -413,14 +447,34 @@ static enum result write_cover(struct writer *writer, int token, int last, struc
                            err);
 }
 
+/* Such a pigment after the finish `finish {...} pigment {...}` at `token` is written before it. */
+static enum result move_cover(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int pigment = last + 1;
+    while (in_list(file, pigment, moved_over_words) && opens_block(file, pigment))
+        pigment = file->list.tokens[pigment + 1].match + 1;
+    if (!is_word(file, pigment, "pigment") || !opens_block(file, pigment) || covered_sibling(writer, token) >= 0)
+        return RESULT_OK;
+    int end = file->list.tokens[pigment + 1].match;
+    if (!tracks(writer, pigment + 2, end) || has_effects(writer, pigment, end) || in_triangle(file, pigment))
+        return RESULT_OK;
+    writer->moved_pigment = pigment;
+    enum result result = insert_before(writer, token, "#declare povgloss_cover =", err);
+    for (int i = pigment; !result && i <= end; i++)
+        result = buffer_printf(&writer->out, err, " %.*s", (int)(file->list.tokens[i].end - file->list.tokens[i].begin),
+                               file->source.data + file->list.tokens[i].begin);
+    return result ? result : add_cover(writer, pigment, end, err);
+}
+
 static enum result begin_finish(struct writer *writer, int token, struct error *err)
 {
     const struct scene_file *file = writer->file;
-    int brace = file->list.tokens[token].parent, surface = surface_before(file, token);
-    bool in_texture = brace > 0 && is_word(file, brace - 1, "texture");
+    int brace = file->list.tokens[token].parent, surface = surface_before(writer, token);
+    bool of_texture = brace > 0 && is_word(file, brace - 1, "texture");
     bool own = surface >= 0 && is_word(file, surface, "pigment") && covered_sibling(writer, token) >= 0;
     enum result result = insert_after(writer, token + 1,
-                                      in_texture                                          ? " povgloss_begin(povgloss_texture) "
+                                      of_texture                                          ? " povgloss_begin(povgloss_texture) "
                                       : own                                               ? " povgloss_begin(povgloss_own) "
                                       : surface >= 0 && !is_word(file, surface, "pigment") ? " povgloss_begin(povgloss_last) "
                                                                                           : " povgloss_begin(povgloss_default_state) ",
@@ -440,8 +494,10 @@ static enum result begin_finish(struct writer *writer, int token, struct error *
 /* A finish that is declared by a name leaves automatic gloss to the textures and objects that use it. */
 static enum result write_finish(struct writer *writer, int token, int last, bool named, struct error *err)
 {
-    enum result result = begin_finish(writer, token, err);
+    enum result result = move_cover(writer, token, last, err);
     int cover = covered_sibling(writer, token);
+    if (!result)
+        result = begin_finish(writer, token, err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
@@ -722,24 +778,91 @@ static enum result write_material(struct writer *writer, int token, int last, st
     return result ? result : write_tokens(writer, token + 2, last, err);
 }
 
-/* `object { X` at its keyword counts the textures of X. */
+/* `object { X` at its keyword counts the textures of X, or notes that they aren't known. */
 static enum result add_part_counts(struct writer *writer, int token, struct error *err)
 {
-    int part = is_word(writer->file, token, "object") ? find_name(&writer->scene->names, writer->file, token + 2) : -1;
-    if (part < 0 || is_mark(writer->file, token + 3, "(") || is_mark(writer->file, token + 3, "["))
+    const struct scene_file *file = writer->file;
+    int name = token + 2, part = find_name(&writer->scene->names, file, name);
+    if (!is_word(file, token, "object") || opens_block(file, name) || is_mark(file, name + 1, "(") ||
+        file->list.tokens[name].kind != TOKEN_WORD)
         return RESULT_OK;
-    enum result result = insert_after(writer, token + 2, "", err);
-    return result ? result
-                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #end ",
-                                  part, part);
+    bool known = part >= 0 && !is_mark(file, name + 1, "[");
+    enum result result = known ? insert_after(writer, name, "", err) : insert_before(writer, name, "", err);
+    if (!result && known)
+        result = buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #else ", part,
+                               part);
+    if (!result)
+        result = buffer_add_text(&writer->out, "povgloss_add(<0, 0, 1>) ", err);
+    return result || !known ? result : buffer_add_text(&writer->out, "#end ", err);
 }
 
-/* An object with its textures counted: one of the top level, which may be transparent, is declared and then placed, a declared
- * one, which may be glossy, keeps its counts beside its name (`name`, else -1). */
+/* Whether all that the union at `brace` holds is blocks of objects, which have their own surfaces. */
+static bool holds_objects_only(const struct writer *writer, int brace)
+{
+    static const char *const unknown[] = {"include", "macro", "default", NULL};
+    const struct scene_file *file = writer->file;
+    int last = file->list.tokens[brace].match, i = brace + 1;
+    while (i < last) {
+        if (file->list.tokens[i].kind == TOKEN_DIRECTIVE) {
+            for (int word = 0; unknown[word]; word++)
+                if (is_directive(file, i, unknown[word]))
+                    return false;
+            i = directive_end(file, i, last);
+        } else if (opens_block(file, i)) {
+            int end = file->list.tokens[i + 1].match;
+            if (in_list(file, i, texture_words) || file->list.tokens[end].match != i + 1)
+                return false;
+            i = end + 1;
+        } else if (is_mark(file, i + 1, "(") && find_name(&writer->scene->names, file, i) >= 0)
+            return false;
+        else
+            i++;
+    }
+    return true;
+}
+
+/* Whether the object between these tokens may be transparent. */
+static bool may_be_placed(const struct writer *writer, int first, int last)
+{
+    return writer->scene->clear_default || tracks(writer, first, last);
+}
+
+/* Whether the objects in these braces are placed one by one: those of a union of the top level, or in such a union, that may
+ * hold something transparent. */
+static bool splits(struct writer *writer, int brace)
+{
+    const struct scene_file *file = writer->file;
+    if (brace == writer->asked_union)
+        return writer->asked_splits;
+    if (brace <= 0 || !is_word(file, brace - 1, "union") || writer->in_macro || file->list.tokens[brace].match < 0 ||
+        is_mark(file, brace - 2, "=") || is_mark(file, brace - 2, "(") || is_mark(file, brace - 2, ","))
+        return false;
+    int last = file->list.tokens[brace].match, parent = file->list.tokens[brace].parent;
+    bool found = file->list.tokens[last].match == brace && may_be_placed(writer, brace + 1, last) &&
+                 holds_objects_only(writer, brace) && (parent < 0 || splits(writer, parent));
+    writer->asked_union = brace;
+    return writer->asked_splits = found;
+}
+
+/* A union whose objects are placed one by one is itself in both copies. */
+static enum result write_split(struct writer *writer, int token, int last, struct error *err)
+{
+    bool top = writer->file->list.tokens[token].parent < 0;
+    enum result result = insert_before(writer, token, top ? "povgloss_leave_copy() " : "", err);
+    if (!result)
+        result = insert_after(writer, token + 1, " povgloss_nothing() ", err);
+    if (!result)
+        result = write_tokens(writer, token + 2, last, err);
+    return result ? result : insert_after(writer, last, top ? " povgloss_enter_copy() " : "", err);
+}
+
+/* An object with its textures counted: one of the top level, which may be transparent, is declared and then placed, as is one
+ * of a union that is split; a declared one, which may be glossy, keeps its counts beside its name (`name`, else -1). */
 static enum result write_object(struct writer *writer, int token, int last, int name, struct error *err)
 {
     const struct scene_file *file = writer->file;
     static const char *const unions[] = {"union", NULL};
+    bool part = splits(writer, file->list.tokens[token].parent);
     int index = find_name(&writer->scene->names, file, name);
     enum result result = name >= 0 ? RESULT_OK : insert_before(writer, token, "#declare povgloss_object = ", err);
     if (!result)
@@ -759,7 +882,9 @@ static enum result write_object(struct writer *writer, int token, int last, int 
     if (!result)
         result = insert_after(writer, last, " ", err);
     if (result || name < 0)
-        return result ? result : buffer_add_text(&writer->out, "povgloss_place() ", err);
+        return result ? result
+                      : buffer_printf(&writer->out, err, "povgloss_place%s(%d, %d) ", part ? "_part" : "",
+                                      (int)(file - writer->scene->files), file->list.tokens[token].line);
     return buffer_printf(&writer->out, err,
                          "povgloss_leave() #declare povgloss_holds_%d = povgloss_counts - povgloss_before_%d; ", index,
                          index);
@@ -837,12 +962,6 @@ static enum result write_declared_layers(struct writer *writer, int token, int *
         result = buffer_printf(&writer->out, err, "texture { povgloss_layer_%d } ", i);
     *next = last + 1;
     return result ? result : remember(writer, writer->value_name, last, err);
-}
-
-static bool in_triangle(const struct scene_file *file, int token)
-{
-    int parent = file->list.tokens[token].parent;
-    return parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
 }
 
 /* Whether all layers of the texture whose first layer is at `token` may be transparent. */
@@ -1052,13 +1171,18 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     }
     bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0 &&
                  !is_mark(file, writer->value_name + 1, "[");
-    bool placed = !value && file->list.tokens[token].parent < 0 && !argument && tracks(writer, token + 2, last);
+    bool placed = !value && file->list.tokens[token].parent < 0 && !argument && may_be_placed(writer, token + 2, last);
+    if (rules->places && !value && splits(writer, brace))
+        return write_split(writer, token, last, err);
+    placed |= !value && splits(writer, file->list.tokens[token].parent);
     if (rules->places && (named || placed) && in_list(file, token, object_words))
         return write_object(writer, token, last, named ? writer->value_name : -1, err);
     bool filling = fills_array(file, token), pattern = inside_any(file, token, pattern_words);
     bool pigment = is_word(file, token, "pigment") && !pattern;
     if (rules->covers && is_word(file, token, "interior"))
         return write_interior(writer, token, last, err);
+    if (rules->covers && rules->marks && is_word(file, token, "subsurface") && is_word(file, token + 2, "translucency"))
+        return write_subsurface(writer, token, last, err);
     if (rules->marks && last >= writer->end) {
         *next = 0;
         return is_word(file, token, "finish")    ? begin_finish(writer, token, err)
@@ -1183,6 +1307,8 @@ static enum result write_default(struct writer *writer, int token, int *next, st
     enum result result = insert_before(writer, token, breaks ? "povgloss_modifiers() } " : "", err);
     if (!result && writer->rules->marks)
         result = buffer_add_text(&writer->out, "povgloss_enter_default() ", err);
+    if (!result && writer->rules->places)
+        result = buffer_add_text(&writer->out, "#declare povgloss_before_default = povgloss_counts; ", err);
     if (!result && file->list.tokens[token].kind == TOKEN_WORD) /* the old form, which is a statement */
         result = buffer_add_text(&writer->out, "#", err);
     writer->in_default = true;
@@ -1190,6 +1316,8 @@ static enum result write_default(struct writer *writer, int token, int *next, st
         result = writer->rules->coded ? insert_after(writer, last, " #default { texture { povgloss_default } }", err)
                                       : write_tokens(writer, token + 1, last, err);
     writer->in_default = false;
+    if (!result && writer->rules->places)
+        result = insert_after(writer, last, " povgloss_counted_default() ", err);
     if (!result && writer->rules->marks)
         result = insert_after(writer, last, " povgloss_leave_default() ", err);
     return result || !breaks ? result : insert_after(writer, last, " union { povgloss_nothing()", err);
@@ -1287,7 +1415,8 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
         const struct scene_file *file = &scene->files[i];
         struct writer writer = {
             .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy,
-            .value_end = -1, .end = file->list.count, .object_end = -1};
+            .value_end = -1, .end = file->list.count, .object_end = -1, .moved_pigment = -1,
+            .asked_union = -1};
         /* POV-Ray takes a byte order mark in a scene but not in an include file, which every copy is. */
         if (file->source.size >= 3 && !memcmp(file->source.data, "\xEF\xBB\xBF", 3))
             writer.at = 3;

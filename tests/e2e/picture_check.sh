@@ -23,10 +23,10 @@ POV
     } > "$1"
 }
 sun='light_source { <-5, 8, -6> rgb 1 }'
-fog='fog { fog_type 1 distance 8 rgb <0.6, 0.7, 0.8> }'
+smoke='box { <-9, -1, -4>, <9, 5, -3> hollow pigment { rgbt 1 } interior { media { absorption 0.5 } } }'
 write_scene right.pov <<< "$sun"
-write_scene wrong.pov <<< "$sun $fog"
-write_scene later.pov <<< "$sun #if (frame_number > 1) $fog #end"
+write_scene wrong.pov <<< "$sun $smoke"
+write_scene later.pov <<< "$sun #if (frame_number > 1) $smoke #end"
 
 # warnings SCENE ARGUMENT...: what is said of its picture, in $said.
 warnings() {
@@ -49,11 +49,11 @@ says_nothing() {
 for scene in "$root"/povscenes/*.pov; do
     check "passes__$(basename "$scene" .pov)__adds_up" says_nothing "$scene" +W320 +H240 +A0.3
 done
-check "passes__fog__is_said" says \
+check "passes__smoke__is_said" says \
     "^povgloss: warning: wrong.pov: the passes .* in [1-9][0-9]? % of the image, most at pixel [0-9]+,[0-9]+: " wrong.pov "${small[@]}"
-check "passes__fog_antialiased__is_said" says 'wrong.pov: ' wrong.pov +W320 +H240 +A0.3
-check "passes__fog_in_a_size_without_a_whole_ratio__is_said" says 'wrong.pov: ' wrong.pov +W256 +H192 -A
-check "passes__fog_in_a_later_frame__names_the_frame" says 'warning: frame 2: later.pov: ' later.pov "${small[@]}" +KFF2
+check "passes__smoke_antialiased__is_said" says 'wrong.pov: ' wrong.pov +W320 +H240 +A0.3
+check "passes__smoke_in_a_size_without_a_whole_ratio__is_said" says 'wrong.pov: ' wrong.pov +W256 +H192 -A
+check "passes__smoke_in_a_later_frame__names_the_frame" says 'warning: frame 2: later.pov: ' later.pov "${small[@]}" +KFF2
 check "passes__scene_on_standard_input__is_said" says 'in [0-9]+ % ' - "${small[@]}" < wrong.pov
 for size in "+W160 +H120 +A0.3" "+W256 +H192 -A" "+W256 +H192 +A0.3" "+W333 +H217 +A0.3" "+W320 +H240 -A" "+W40 +H30" ; do
     # shellcheck disable=SC2086 # several switches
