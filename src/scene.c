@@ -168,17 +168,15 @@ static bool is_layered(const struct scene_file *file, int name)
 static const char *const mixing_words[] = {"texture_map", "average", "blob", "texture_list", "smooth_triangle", NULL};
 
 /* `#for (X, 1, 9)` and `#read (File, X, Y)` declare, too. */
-static enum result note_variables(struct scene *scene, const struct scene_file *file, int token, struct error *err)
+static void note_variables(struct scene *scene, const struct scene_file *file, int token)
 {
     bool loop = is_directive(file, token, "for");
     if ((!loop && !is_directive(file, token, "read")) || !is_mark(file, token + 1, "("))
-        return RESULT_OK;
+        return;
     int last = loop ? token + 3 : file->list.tokens[token + 1].match;
-    enum result result = RESULT_OK;
-    for (int i = token + 2; !result && i < last; i++)
-        if (file->list.tokens[i].kind == TOKEN_WORD && (is_mark(file, i + 1, ",") || is_mark(file, i + 1, ")")))
-            result = add_name(&scene->names, file, i, err);
-    return result;
+    for (int i = token + 2; i < last; i++)
+        if (is_mark(file, i + 1, ",") || is_mark(file, i + 1, ")"))
+            note_fact(scene, file, i, NAME_DECLARED);
 }
 
 /* What the passes can't hold: a word in a block of this name. */
@@ -204,10 +202,10 @@ const char *scene_limit_text(enum scene_limit limit)
 }
 
 /* Whether the finish at this brace reflects, or may since it begins with a name. */
-static bool may_reflect(const struct scene *scene, const struct scene_file *file, int brace)
+static bool may_reflect(const struct scene_file *file, int brace)
 {
     static const char *const words[] = {"reflection", "Gloss", "Gloss_Roughness", NULL};
-    return find_name(&scene->names, file, brace + 1) >= 0 || mentions(file, brace, file->list.tokens[brace].match, words);
+    return has_fact(file, brace + 1, NAME_DECLARED) || mentions(file, brace, file->list.tokens[brace].match, words);
 }
 
 static void note_limits(struct scene *scene, const struct scene_file *file, int token)
@@ -216,7 +214,7 @@ static void note_limits(struct scene *scene, const struct scene_file *file, int 
     for (int i = 0; brace > 0 && i < SCENE_LIMIT_COUNT; i++) {
         bool one = file->list.tokens[token + 1].kind == TOKEN_NUMBER && number_value(file, token + 1) == 1;
         if (is_word(file, token, limits[i].word) && is_word(file, brace - 1, limits[i].block) && !one &&
-            (strcmp(limits[i].block, "finish") || may_reflect(scene, file, brace)) && !scene->limits[i].line)
+            (strcmp(limits[i].block, "finish") || may_reflect(file, brace)) && !scene->limits[i].line)
             scene->limits[i] =
                 (struct scene_place){.file = (int)(file - scene->files), .line = file->list.tokens[token].line};
     }
@@ -229,20 +227,18 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
     int name = is_directive(file, token, "fopen") ? token + 1 : declared_name(file, token);
     if (name > 0 && tokens[name].kind == TOKEN_WORD) {
         bool value = is_mark(file, name + 1, "=");
-        enum result result = add_name(&scene->names, file, name, err);
-        if (!result && value && is_word(file, name + 2, "light_source"))
-            result = add_name(&scene->lights, file, name, err);
-        if (!result && is_filled_array(file, name))
-            result = add_name(&scene->arrays, file, name, err);
-        if (!result && is_layered(file, name))
-            result = add_name(&scene->layered, file, name, err);
-        if (!result && value && in_list(file, name + 2, glossy_words))
-            result = add_name(&scene->glossable, file, name, err);
-        return result;
+        note_fact(scene, file, name, NAME_DECLARED);
+        if (value && is_word(file, name + 2, "light_source"))
+            note_fact(scene, file, name, NAME_LIGHT);
+        if (is_filled_array(file, name))
+            note_fact(scene, file, name, NAME_FILLED_ARRAY);
+        if (is_layered(file, name))
+            note_fact(scene, file, name, NAME_LAYERED);
+        if (value && in_list(file, name + 2, glossy_words))
+            note_fact(scene, file, name, NAME_GLOSSABLE);
+        return RESULT_OK;
     }
-    enum result variables = note_variables(scene, file, token, err);
-    if (variables)
-        return variables;
+    note_variables(scene, file, token);
     if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
         scene->plain_mirrors = true;
     if (in_list(file, token, highlight_words))
@@ -272,6 +268,15 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
     return RESULT_OK;
 }
 
+static enum result name_words(struct scene *scene, struct scene_file *file, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (struct token *token = file->list.tokens; !result && token < file->list.tokens + file->list.count; token++)
+        if (token->kind == TOKEN_WORD)
+            result = scene_names_add(&scene->names, file->source.data + token->word, token->word_length, &token->name, err);
+    return result;
+}
+
 /* Takes `path` over. */
 static enum result load_file(struct scene *scene, char *path, const char *const *directories, int directory_count,
                              struct error *err)
@@ -295,6 +300,8 @@ static enum result load_file(struct scene *scene, char *path, const char *const 
     input_file_free(&input);
     if (!result)
         result = scene_lex(path, &files[index].source, &files[index].list, err);
+    if (!result)
+        result = name_words(scene, &files[index], err);
     for (int token = 0; !result && token < scene->files[index].list.count; token++) {
         result = note_token(scene, index, token, err);
         if (!result && is_directive(&scene->files[index], token, "include"))
@@ -307,9 +314,9 @@ static const char *const clear_words[] = {"rgbt",   "rgbf",     "rgbft",  "srgbt
                                           "srgbft", "transmit", "filter", "image_map", NULL};
 
 /* Whether the token names a transparent colour, an image, or something that was declared with one. */
-static bool names_clear(const struct scene *scene, const struct scene_file *file, int token)
+static bool names_clear(const struct scene_file *file, int token)
 {
-    return in_list(file, token, clear_words) || find_name(&scene->clear, file, token) >= 0;
+    return in_list(file, token, clear_words) || has_fact(file, token, NAME_CLEAR);
 }
 
 static enum result count_clear(struct scene *scene, struct error *err)
@@ -321,8 +328,8 @@ static enum result count_clear(struct scene *scene, struct error *err)
         if (!file->clear)
             return error_memory(err, (double)size);
         for (int token = 0; token < file->list.count; token++)
-            file->clear[token + 1] = file->clear[token] + (names_clear(scene, file, token) ||
-                                                            find_name(&scene->parameters, file, token) >= 0);
+            file->clear[token + 1] = file->clear[token] + (names_clear(file, token) ||
+                                                            has_fact(file, token, NAME_PARAMETER));
         for (int token = 0; token < file->list.count; token++)
             scene->clear_default |= (is_directive(file, token, "default") || is_word(file, token, "default")) &&
                                     opens_block(file, token) &&
@@ -331,57 +338,53 @@ static enum result count_clear(struct scene *scene, struct error *err)
     return RESULT_OK;
 }
 
-static enum result note_parameters(struct scene *scene, const struct scene_file *file, int name, struct error *err)
+static void note_parameters(struct scene *scene, const struct scene_file *file, int name)
 {
-    enum result result = RESULT_OK;
     int last = is_mark(file, name + 1, "(") ? file->list.tokens[name + 1].match : -1;
-    for (int token = name + 2; !result && token < last; token++)
-        if (file->list.tokens[token].kind == TOKEN_WORD)
-            result = add_name(&scene->parameters, file, token, err);
-    return result;
+    for (int token = name + 2; token < last; token++)
+        note_fact(scene, file, token, NAME_PARAMETER);
 }
 
 /* Notes whether the name that the directive at `token` declares may be transparent: what a parameter of a macro gives to it
  * is as unknown as the parameter. */
-static enum result note_clear_name(struct scene *scene, const struct scene_file *file, int token, struct error *err)
+static void note_clear_name(struct scene *scene, const struct scene_file *file, int token)
 {
     bool macro = is_directive(file, token, "macro"), clear = false, unknown = false;
     int name = declared_name(file, token);
-    if (name < 0 || file->list.tokens[name].kind != TOKEN_WORD)
-        return RESULT_OK;
-    enum result result = macro ? note_parameters(scene, file, name, err) : RESULT_OK;
+    if (!name_at(file, name))
+        return;
+    if (macro)
+        note_parameters(scene, file, name);
     int last = macro ? end_of_macro(file, token) : last_of_value(file, name + 1);
     for (int word = name + 1; word <= last; word++) {
-        clear |= names_clear(scene, file, word);
-        unknown |= !macro && find_name(&scene->parameters, file, word) >= 0;
+        clear |= names_clear(file, word);
+        unknown |= !macro && has_fact(file, word, NAME_PARAMETER);
     }
-    if (!result && clear)
-        result = add_name(&scene->clear, file, name, err);
-    if (!result && unknown)
-        result = add_name(&scene->parameters, file, name, err);
-    return result;
+    if (clear)
+        note_fact(scene, file, name, NAME_CLEAR);
+    if (unknown)
+        note_fact(scene, file, name, NAME_PARAMETER);
 }
 
 /* Finds the names through which a pigment may be transparent: those declared with a transparent colour or an image, or with
  * such a name, until none is added. */
-static enum result note_clear_names(struct scene *scene, struct error *err)
+static void note_clear_names(struct scene *scene)
 {
-    enum result result = RESULT_OK;
-    size_t before;
+    int before;
     do {
-        before = scene->clear.size + scene->parameters.size;
+        before = scene->names.facts;
         for (int i = 0; i < scene->file_count; i++)
-            for (int token = 0; !result && token < scene->files[i].list.count - 1; token++)
-                result = note_clear_name(scene, &scene->files[i], token, err);
-    } while (!result && scene->clear.size + scene->parameters.size != before);
-    return result;
+            for (int token = 0; token < scene->files[i].list.count - 1; token++)
+                note_clear_name(scene, &scene->files[i], token);
+    } while (scene->names.facts != before);
 }
 
 /* Notes what the user chose to be glossy. */
 static enum result note_choice(struct scene *scene, const struct gloss_choice *choice, struct error *err)
 {
     for (int i = 0; i < choice->name_count; i++) {
-        if (!list_has(&scene->glossable, choice->names[i].name))
+        const struct scene_name *name = scene_names_find(&scene->names, choice->names[i].name);
+        if (!name || !(name->facts & NAME_GLOSSABLE))
             return error_set(err, RESULT_DATA,
                              "%s: no finish, texture or material is declared by the name %s: `povgloss list` shows those "
                              "that reflect",
@@ -403,51 +406,45 @@ bool scene_has_unknown_include(const struct scene_file *file)
     return false;
 }
 
-/* Adds to `called`, which names macros that the scene may call, those that one of them may call in turn. */
-static enum result add_called(const struct scene *scene, struct buffer *called, struct error *err)
+/* Finds the macros that the scene may call: outside macros, or in one of them. */
+static void note_called(struct scene *scene)
 {
-    enum result result = RESULT_OK;
-    size_t before;
+    int before;
     do {
-        before = called->size;
-        for (int i = 0; !result && i < scene->file_count; i++) {
+        before = scene->names.facts;
+        for (int i = 0; i < scene->file_count; i++) {
             const struct scene_file *file = &scene->files[i];
             struct nesting nesting = {0};
-            for (int token = 0; !result && token < file->list.count; token++) {
+            for (int token = 0; token < file->list.count; token++) {
                 nest(&nesting, file, token);
-                if (is_mark(file, token + 1, "(") && find_name(&scene->names, file, token) >= 0 &&
-                    token != nesting.macro &&
-                    (!nesting.macro || find_name(called, file, nesting.macro) >= 0))
-                    result = add_name(called, file, token, err);
+                if (is_mark(file, token + 1, "(") && has_fact(file, token, NAME_DECLARED) && token != nesting.macro &&
+                    (!nesting.macro || has_fact(file, nesting.macro, NAME_CALLED)))
+                    note_fact(scene, file, token, NAME_CALLED);
             }
         }
-    } while (!result && called->size > before);
-    return result;
+    } while (scene->names.facts != before);
 }
 
 /* An include whose file isn't known matters unless it stands in a macro that is never called. */
-static enum result note_unknown_includes(struct scene *scene, struct error *err)
+static void note_unknown_includes(struct scene *scene)
 {
     bool unknown = false;
     for (int i = 0; i < scene->file_count; i++)
         unknown |= scene_has_unknown_include(&scene->files[i]);
     if (!unknown)
-        return RESULT_OK;
-    struct buffer called = {0};
-    enum result result = add_called(scene, &called, err);
-    for (int i = 0; !result && i < scene->file_count; i++) {
+        return;
+    note_called(scene);
+    for (int i = 0; i < scene->file_count; i++) {
         const struct scene_file *file = &scene->files[i];
         struct nesting nesting = {0};
         for (int token = 0, include = 0; include < file->include_count; token++) {
             nest(&nesting, file, token);
             if (token != file->includes[include].token)
                 continue;
-            if (file->includes[include++].file < 0 && (!nesting.macro || find_name(&called, file, nesting.macro) >= 0))
+            if (file->includes[include++].file < 0 && (!nesting.macro || has_fact(file, nesting.macro, NAME_CALLED)))
                 scene->needs_discovery = true;
         }
     }
-    buffer_free(&called);
-    return result;
 }
 
 double scene_default_gamma(const struct scene *scene)
@@ -457,11 +454,9 @@ double scene_default_gamma(const struct scene *scene)
 
 enum result scene_settle(struct scene *scene, struct error *err)
 {
-    enum result result = scene_note_surfaces(scene, err);
-    if (!result)
-        result = note_clear_names(scene, err);
-    if (!result)
-        result = count_clear(scene, err);
+    scene_note_surfaces(scene);
+    note_clear_names(scene);
+    enum result result = count_clear(scene, err);
     return result ? result : note_choice(scene, scene->choice, err);
 }
 
@@ -481,8 +476,8 @@ enum result scene_load(struct scene *scene, const char *path, const struct gloss
             scene->version = number_value(main_file, token + 1);
     if (scene->gammas == 0)
         scene->working_gamma = scene_default_gamma(scene);
-    result = note_unknown_includes(scene, err);
-    return result || scene->needs_discovery ? result : scene_settle(scene, err);
+    note_unknown_includes(scene);
+    return scene->needs_discovery ? RESULT_OK : scene_settle(scene, err);
 }
 
 void scene_free(struct scene *scene)
@@ -498,15 +493,6 @@ void scene_free(struct scene *scene)
     for (int i = 0; i < scene->found_count; i++)
         free(scene->found[i].name);
     free(scene->found);
-    buffer_free(&scene->names);
-    buffer_free(&scene->lights);
-    buffer_free(&scene->arrays);
-    buffer_free(&scene->surfaces);
-    buffer_free(&scene->surface_arrays);
-    buffer_free(&scene->surface_macros);
-    buffer_free(&scene->layered);
-    buffer_free(&scene->glossable);
-    buffer_free(&scene->clear);
-    buffer_free(&scene->parameters);
+    scene_names_free(&scene->names);
     *scene = (struct scene){0};
 }

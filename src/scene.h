@@ -4,6 +4,7 @@
 
 #include "gloss_choice.h"
 #include "scene_lexer.h"
+#include "scene_names.h"
 
 struct scene_include {
     int token, end; /* the expression after #include: its first token, and the one after it */
@@ -50,16 +51,7 @@ struct scene {
     struct scene_found *found;
     int found_count;
     bool needs_discovery;  /* its includes or its assumed_gamma are known to POV-Ray only: scene_discover */
-    struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
-    struct buffer lights;  /* in the same form: names that were declared as a light_source, */
-    struct buffer arrays;  /* as an array filled in its declaration, with a finish written out in it, */
-    struct buffer surfaces;  /* what textures, finishes or materials begin with, */
-    struct buffer surface_arrays; /* arrays of such, */
-    struct buffer surface_macros; /* macros with such a parameter; names that were declared */
-    struct buffer layered; /* as a texture of several layers, */
-    struct buffer glossable; /* as a finish, texture or material, */
-    struct buffer clear;     /* as something that may be transparent, */
-    struct buffer parameters; /* as a parameter of a macro, which may be anything, or with one */
+    struct scene_names names;
     bool glossy;           /* some finish may be glossy, by Gloss or Gloss_Roughness or by the user's choice */
     double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
     bool plain_mirrors;    /* some finish may reflect without a call of Gloss */

@@ -10,6 +10,8 @@
 
 #include <stdbool.h>
 
+struct scene_name;
+
 enum token_kind {
     TOKEN_WORD,      /* keyword or identifier */
     TOKEN_DIRECTIVE, /* #word; `word` holds the word without the # */
@@ -26,6 +28,7 @@ struct token {
     int line;                 /* from 1 */
     int match;                /* of { } ( ): the token that closes or opens it; -1: none */
     int parent;               /* the innermost paired { around the token; -1: none */
+    struct scene_name *name;  /* of a word, once its file belongs to a scene; else NULL */
 };
 
 struct token_list {

@@ -11,7 +11,7 @@
 
 enum { MAX_INHERITANCE = 50 };
 
-/* A file's tokens as declarations see them: indices of names in scene->names, or -1. */
+/* A file's tokens as declarations see them: indices of declared names, or -1. */
 struct words {
     int *name;      /* of the word itself */
     int *declared;  /* of the innermost #declare or #local whose value the token is part of */
@@ -49,7 +49,7 @@ static enum result words_make(const struct scene *scene, struct words **all, str
         memset(words->declared, -1, size);
         memset(words->around, -1, size);
         for (int token = 0; token < file->list.count; token++)
-            words->name[token] = find_name(&scene->names, file, token);
+            words->name[token] = name_index(file, token);
         /* Outer declarations come first, and inner ones go over them. */
         for (int token = 0; token < file->list.count - 1; token++) {
             bool macro = is_directive(file, token, "macro");
@@ -88,14 +88,12 @@ static void mark_used(const struct scene *scene, const struct words *words, bool
 static const struct scene_file *find_finish(const struct scene *scene, const struct scene_file *from, int name,
                                             int *brace)
 {
-    const struct token *word = &from->list.tokens[name];
-    for (int i = 0; word->kind == TOKEN_WORD && i < scene->file_count; i++) {
+    const struct scene_name *word = name_at(from, name);
+    for (int i = 0; word && i < scene->file_count; i++) {
         const struct scene_file *file = &scene->files[i];
         for (int token = 0; token < file->list.count - 4; token++) {
-            const struct token *other = &file->list.tokens[token];
-            if (is_word(file, token + 2, "finish") && is_mark(file, token + 1, "=") && other->kind == TOKEN_WORD &&
-                other->word_length == word->word_length && opens_block(file, token + 2) &&
-                !memcmp(file->source.data + other->word, from->source.data + word->word, word->word_length)) {
+            if (name_at(file, token) == word && is_mark(file, token + 1, "=") &&
+                is_word(file, token + 2, "finish") && opens_block(file, token + 2)) {
                 *brace = token + 3;
                 return file;
             }
@@ -231,16 +229,16 @@ enum result scene_list(const struct scene *scene, struct buffer *text, int *coun
     static const char header[] = "NAME\0PLACE\0EXPONENT\0REFLECTION";
     struct buffer cells = {0};
     struct words *words;
-    const char **names = calloc(scene->names.size + 1, sizeof *names);
-    bool *used = calloc(scene->names.size + 1, sizeof *used);
+    const size_t name_count = (size_t)scene->names.declared_count;
+    const char **names = calloc(name_count + 1, sizeof *names);
+    bool *used = calloc(name_count + 1, sizeof *used);
     *count = 0;
     enum result result = words_make(scene, &words, err);
     if (!result && (!names || !used))
-        result = error_memory(err, (double)scene->names.size);
+        result = error_memory(err, (double)(name_count * sizeof *names));
     if (!result) {
-        size_t at = 0;
-        for (int i = 0; at < scene->names.size; at += strlen(names[i++]) + 1)
-            names[i] = scene->names.data + at;
+        for (const struct scene_name *name = scene->names.declared; name; name = name->next)
+            names[name->index] = name->text;
         mark_used(scene, words, used);
         result = buffer_add(&cells, header, sizeof header, err);
     }

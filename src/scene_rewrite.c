@@ -179,7 +179,7 @@ static bool has_effects(const struct writer *writer, int first, int last)
 {
     for (int i = first; i <= last; i++)
         if (writer->file->list.tokens[i].kind == TOKEN_DIRECTIVE || is_word(writer->file, i, "rand") ||
-            (is_mark(writer->file, i + 1, "(") && find_name(&writer->scene->names, writer->file, i) >= 0))
+            (is_mark(writer->file, i + 1, "(") && has_fact(writer->file, i, NAME_DECLARED)))
             return true;
     return false;
 }
@@ -305,9 +305,9 @@ static enum result inherit_state(struct writer *writer, int token, const char *m
 {
     static const char index[] = "povgloss_index";
     const struct scene_file *file = writer->file;
-    int name = find_name(&writer->scene->names, file, token), end = after_subscripts(file, token + 1);
+    int name = name_index(file, token), end = after_subscripts(file, token + 1);
     if (name < 0 || is_call(file, token) ||
-        (end > token + 1 && find_name(&writer->scene->surface_arrays, file, token) < 0))
+        (end > token + 1 && !has_fact(file, token, NAME_SURFACE_ARRAY)))
         return RESULT_OK;
     struct buffer element = {0};
     enum result result = hoist_subscripts(writer, token, token, index, err);
@@ -480,13 +480,13 @@ static enum result begin_finish(struct writer *writer, int token, struct error *
                                                                                           : " povgloss_begin(povgloss_default_state) ",
                                       err);
     bool value = is_mark(file, token - 1, "=");
-    if (!result && value && find_name(&writer->scene->names, file, token + 2) < 0 &&
-        find_name(&writer->scene->parameters, file, token + 2) < 0)
+    if (!result && value && !has_fact(file, token + 2, NAME_DECLARED) &&
+        !has_fact(file, token + 2, NAME_PARAMETER))
         result = buffer_add_text(&writer->out, "povgloss_of_default() ", err);
     if (!result)
         result = inherit_state(writer, token + 2, "povgloss_of_finish", err);
     /* An element of a filled array comes unmarked. */
-    if (!result && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
+    if (!result && has_fact(writer->file, token + 2, NAME_FILLED_ARRAY))
         result = buffer_add_text(&writer->out, " #declare povgloss_reflects = 1; ", err);
     return result;
 }
@@ -532,7 +532,7 @@ static enum result write_texture(struct writer *writer, int token, int last, boo
     enum result result = begin_texture(writer, token, upper, err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
-    if (!result && rules->marks && find_name(&writer->scene->arrays, writer->file, token + 2) >= 0)
+    if (!result && rules->marks && has_fact(writer->file, token + 2, NAME_FILLED_ARRAY))
         result = insert_before(
             writer, last, " finish { povgloss_begin(povgloss_none) #declare povgloss_reflects = 1; povgloss_end() } ", err);
     if (!result && rules->marks && writer->given && plain && !mentions(writer->file, token + 2, last, finish_carriers))
@@ -540,7 +540,7 @@ static enum result write_texture(struct writer *writer, int token, int last, boo
     if (!result && rules->marks && rules->covers && cover && plain)
         result = insert_before(writer, last, " povgloss_hide(povgloss_last) ", err);
     /* Nothing shows through an opaque layer, but a layer that isn't glossy must not hide a glossy one below. */
-    if (!result && upper && rules->pigments && find_name(&writer->scene->layered, writer->file, token + 2) < 0)
+    if (!result && upper && rules->pigments && !has_fact(writer->file, token + 2, NAME_LAYERED))
         result = insert_before(writer, last, " #if (povgloss_exponent(povgloss_last) < 0) pigment { rgbt 1 } #end ", err);
     return result;
 }
@@ -551,11 +551,11 @@ static const char declared_element[] = "povgloss_element";
 static enum result remember(struct writer *writer, int name_token, int last, struct error *err)
 {
     const struct scene_file *file = writer->file;
-    int name = find_name(&writer->scene->names, file, name_token), end = last + is_mark(file, last + 1, ";");
+    int name = name_index(file, name_token), end = last + is_mark(file, last + 1, ";");
     int subscripts = after_subscripts(file, name_token + 1);
     bool element = subscripts > name_token + 1;
     if (name < 0 || is_word(file, last + 1, "texture") ||
-        (element && find_name(&writer->scene->surface_arrays, file, name_token) < 0))
+        (element && !has_fact(file, name_token, NAME_SURFACE_ARRAY)))
         return RESULT_OK;
     const char *declare = is_directive(file, name_token - 1, "local") ? "#local" : "#declare";
     enum result result = copy_to(writer, file->list.tokens[end].end, err);
@@ -580,9 +580,9 @@ static enum result declare_states(struct writer *writer, int directive, int *nex
     const struct scene_file *file = writer->file;
     int name = declared_name(file, directive), index = 0;
     if (name < 0 || !is_mark(file, name + 1, "=") || !is_word(file, name + 2, "array") ||
-        find_name(&writer->scene->surface_arrays, file, name) < 0)
+        !has_fact(file, name, NAME_SURFACE_ARRAY))
         return RESULT_OK;
-    int brace = after_subscripts(file, name + 3), array = find_name(&writer->scene->names, file, name);
+    int brace = after_subscripts(file, name + 3), array = name_index(file, name);
     const struct token *tokens = file->list.tokens;
     const char *declare = is_directive(file, directive, "local") ? "#local" : "#declare";
     enum result result = insert_before(writer, directive, "", err);
@@ -597,7 +597,7 @@ static enum result declare_states(struct writer *writer, int directive, int *nex
         result = insert_after(writer, *next - 1, "", err);
     for (int i = brace + 1; !result && i < tokens[brace].match; index++) {
         int first = in_list(file, i, glossy_words) && opens_block(file, i) ? i + 2 : i;
-        int element = is_mark(file, first + 1, "[") ? -1 : find_name(&writer->scene->names, file, first);
+        int element = is_mark(file, first + 1, "[") ? -1 : name_index(file, first);
         if (element >= 0)
             result = buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) %s povgloss_of_%d[%d] = povgloss_of_%d; #end ",
                                    element, declare, array, index, element);
@@ -615,7 +615,7 @@ static enum result copy_state(struct writer *writer, int directive, struct error
     int name = declared_name(file, directive), semicolon = name + 3;
     if (name < 0 || !is_mark(file, name + 1, "=") || !is_mark(file, semicolon, ";"))
         return RESULT_OK;
-    int to = find_name(&writer->scene->names, file, name), from = find_name(&writer->scene->names, file, name + 2);
+    int to = name_index(file, name), from = name_index(file, name + 2);
     if (to < 0 || from < 0)
         return RESULT_OK;
     enum result result = insert_after(writer, semicolon, "", err);
@@ -630,12 +630,12 @@ static enum result take_states(struct writer *writer, int directive, struct erro
 {
     const struct scene_file *file = writer->file;
     int macro = directive + 1, position = 0;
-    if (!is_directive(file, directive, "macro") || find_name(&writer->scene->surface_macros, file, macro) < 0)
+    if (!is_directive(file, directive, "macro") || !has_fact(file, macro, NAME_SURFACE_MACRO))
         return RESULT_OK;
     int last = file->list.tokens[macro + 1].match;
     enum result result = insert_before(writer, last, "", err);
     for (int i = macro + 2; !result && i < last; i = argument_end(file, i, last) + 1, position++) {
-        int name = find_name(&writer->scene->surfaces, file, i) < 0 ? -1 : find_name(&writer->scene->names, file, i);
+        int name = !has_fact(file, i, NAME_SURFACE) ? -1 : name_index(file, i);
         result = buffer_printf(&writer->out, err, name >= 0 ? ", povgloss_of_%d" : ", povgloss_unused_%d",
                                name >= 0 ? name : position);
     }
@@ -646,19 +646,19 @@ static enum result take_states(struct writer *writer, int directive, struct erro
 static enum result give_states(struct writer *writer, int token, int *next, struct error *err)
 {
     const struct scene_file *file = writer->file;
-    if (find_name(&writer->scene->surface_macros, file, token) < 0 || !is_call(file, token))
+    if (!has_fact(file, token, NAME_SURFACE_MACRO) || !is_call(file, token))
         return RESULT_OK;
     int last = file->list.tokens[token + 1].match;
     struct buffer states = {0};
     enum result result = write_tokens(writer, token + 2, last, err);
     for (int i = token + 2, end; !result && i < last; i = end + 1) {
         end = argument_end(file, i, last);
-        int name = find_name(&writer->scene->surfaces, file, i) < 0 ? -1 : find_name(&writer->scene->names, file, i);
+        int name = !has_fact(file, i, NAME_SURFACE) ? -1 : name_index(file, i);
         bool element = end > i + 1;
         if (in_list(file, i, glossy_words) && opens_block(file, i) && argument_end(file, end + 1, last) >= last)
             result = buffer_add_text(&states, ", povgloss_last*1", err);
         else if (name < 0 || after_subscripts(file, i + 1) != end || has_effects(writer, i, end - 1) ||
-                 (element && find_name(&writer->scene->surface_arrays, file, i) < 0))
+                 (element && !has_fact(file, i, NAME_SURFACE_ARRAY)))
             result = buffer_add_text(&states, ", povgloss_none", err);
         else
             result = buffer_printf(&states, err, ", povgloss_of_%d%.*s", name,
@@ -674,14 +674,13 @@ static enum result give_states(struct writer *writer, int token, int *next, stru
     return result;
 }
 
-/* Whether a macro of the name at `token` writes an object itself. */
-static bool makes_object(const struct scene *scene, const struct scene_file *from, int token)
+/* Whether a macro of this name writes an object itself. */
+static bool makes_object(const struct scene *scene, const struct scene_name *name)
 {
-    const struct token *name = &from->list.tokens[token];
     for (int i = 0; i < scene->file_count; i++) {
         const struct scene_file *file = &scene->files[i];
         for (int macro = 1; macro < file->list.count; macro++)
-            if (is_directive(file, macro - 1, "macro") && is_same_word(file, macro, from, name) &&
+            if (is_directive(file, macro - 1, "macro") && name_at(file, macro) == name &&
                 mentions(file, macro, end_of_macro(file, macro - 1), object_words))
                 return true;
     }
@@ -693,9 +692,9 @@ static enum result declare_made(struct writer *writer, int directive, int *next,
 {
     const struct scene_file *file = writer->file;
     int name = declared_name(file, directive), value = name < 0 ? -1 : after_subscripts(file, name + 1) + 1;
-    if (name < 0 || !is_mark(file, value - 1, "=") || find_name(&writer->scene->surfaces, file, name) < 0 ||
-        find_name(&writer->scene->names, file, value) < 0 || !is_call(file, value) ||
-        makes_object(writer->scene, file, value))
+    if (name < 0 || !is_mark(file, value - 1, "=") || !has_fact(file, name, NAME_SURFACE) ||
+        !has_fact(file, value, NAME_DECLARED) || !is_call(file, value) ||
+        makes_object(writer->scene, name_at(file, value)))
         return RESULT_OK;
     int last = file->list.tokens[value + 1].match;
     enum result result = insert_before(
@@ -712,7 +711,7 @@ static enum result declare_made(struct writer *writer, int directive, int *next,
 /* A material in a copy without textures: its interior is kept for the object, which may be clear. */
 static enum result write_coded_material(struct writer *writer, int token, int last, struct error *err)
 {
-    int name = find_name(&writer->scene->names, writer->file, token + 2);
+    int name = name_index(writer->file, token + 2);
     enum result result =
         insert_after(writer, token + 1, " povgloss_no_interior() #declare povgloss_last = povgloss_none; ", err);
     if (!result)
@@ -761,7 +760,7 @@ static enum result write_light(struct writer *writer, int token, int last, bool 
     static const char *const looks_like[] = {"looks_like", NULL};
     const struct scene_file *file = writer->file;
     bool element = is_mark(file, token + 3, "[") && !is_mark(file, after_subscripts(file, token + 3), ",");
-    if (find_name(&writer->scene->lights, file, token + 2) >= 0 || element)
+    if (has_fact(file, token + 2, NAME_LIGHT) || element)
         return copy_to(writer, file->list.tokens[last].end, err);
     if (!value && !has_effects(writer, token + 1, last) && !mentions(writer->file, token + 2, last, looks_like))
         return replace(writer, token, last, "", err);
@@ -782,7 +781,7 @@ static enum result write_material(struct writer *writer, int token, int last, st
 static enum result add_part_counts(struct writer *writer, int token, struct error *err)
 {
     const struct scene_file *file = writer->file;
-    int name = token + 2, part = find_name(&writer->scene->names, file, name);
+    int name = token + 2, part = name_index(file, name);
     if (!is_word(file, token, "object") || opens_block(file, name) || is_mark(file, name + 1, "(") ||
         file->list.tokens[name].kind != TOKEN_WORD)
         return RESULT_OK;
@@ -813,7 +812,7 @@ static bool holds_objects_only(const struct writer *writer, int brace)
             if (in_list(file, i, texture_words) || file->list.tokens[end].match != i + 1)
                 return false;
             i = end + 1;
-        } else if (is_mark(file, i + 1, "(") && find_name(&writer->scene->names, file, i) >= 0)
+        } else if (is_mark(file, i + 1, "(") && has_fact(file, i, NAME_DECLARED))
             return false;
         else
             i++;
@@ -863,7 +862,7 @@ static enum result write_object(struct writer *writer, int token, int last, int 
     const struct scene_file *file = writer->file;
     static const char *const unions[] = {"union", NULL};
     bool part = splits(writer, file->list.tokens[token].parent);
-    int index = find_name(&writer->scene->names, file, name);
+    int index = name_index(file, name);
     enum result result = name >= 0 ? RESULT_OK : insert_before(writer, token, "#declare povgloss_object = ", err);
     if (!result)
         result = insert_after(writer, token + 1, " povgloss_enter() ", err);
@@ -904,7 +903,7 @@ static const struct gloss_name *find_choice(const struct writer *writer, int nam
 static bool keeps_state(const struct writer *writer, int name)
 {
     bool element = name >= 0 && is_mark(writer->file, name + 1, "[");
-    return find_name(element ? &writer->scene->surface_arrays : &writer->scene->names, writer->file, name) >= 0;
+    return has_fact(writer->file, name, element ? NAME_SURFACE_ARRAY : NAME_DECLARED);
 }
 
 /* A finish, texture or material; `name` is that of its declaration, or -1. */
@@ -981,7 +980,7 @@ static enum result write_coded_value(struct writer *writer, int token, int last,
 {
     const struct scene_file *file = writer->file;
     bool texture = is_word(file, token, "texture"), material = is_word(file, token, "material");
-    bool clear = name >= 0 ? find_name(&writer->scene->clear, file, name) >= 0 : tracks(writer, token + 2, last);
+    bool clear = name >= 0 ? has_fact(file, name, NAME_CLEAR) : tracks(writer, token + 2, last);
     if (!clear || fills_array(file, token) || (!texture && !material))
         return copy_to(writer, file->list.tokens[last].end, err);
     enum result result = texture ? write_texture(writer, token, last, is_layer(file, token), err)
@@ -1169,7 +1168,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         *next = 0;
         return write_object(writer, token, last, -1, err);
     }
-    bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0 &&
+    bool named = value && has_fact(file, writer->value_name, NAME_DECLARED) &&
                  !is_mark(file, writer->value_name + 1, "[");
     bool placed = !value && file->list.tokens[token].parent < 0 && !argument && may_be_placed(writer, token + 2, last);
     if (rules->places && !value && splits(writer, brace))
@@ -1189,7 +1188,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
                : is_word(file, token, "texture") ? begin_texture(writer, token, is_layer(file, token), err)
                                                  : RESULT_OK;
     }
-    bool clear_name = value && find_name(&writer->scene->clear, file, writer->value_name) >= 0;
+    bool clear_name = value && has_fact(file, writer->value_name, NAME_CLEAR);
     if (value && is_word(file, token, "texture") && is_word(file, last + 1, "texture") && !filling &&
         (rules->marks || (rules->coded && clear_name)))
         return write_declared_layers(writer, token, next, err);
@@ -1355,7 +1354,7 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
             if (!result && writer->rules->marks)
                 result = take_states(writer, i, err);
             if (!result && (writer->rules->marks || writer->rules->coded) && declared_name(file, i) > 0 &&
-                find_name(&writer->scene->surface_arrays, file, declared_name(file, i)) >= 0)
+                has_fact(file, declared_name(file, i), NAME_SURFACE_ARRAY))
                 result = hoist_subscripts(writer, i, declared_name(file, i), declared_element, err);
             if (!result && (writer->rules->marks || writer->rules->coded))
                 result = declare_made(writer, i, &next, err);
@@ -1440,30 +1439,28 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
 enum result scene_declare_states(const struct scene *scene, struct buffer *text, struct error *err)
 {
     enum result result = RESULT_OK;
-    const char *name = scene->names.data, *end = name + scene->names.size;
-    for (int i = 0; !result && name < end; name += strlen(name) + 1, i++)
-        if (list_has(&scene->surfaces, name) && !list_has(&scene->surface_arrays, name))
-            result = buffer_printf(text, err, "#declare povgloss_of_%d = povgloss_none;\n", i);
+    for (const struct scene_name *name = scene->names.declared; !result && name; name = name->next)
+        if (name->facts & NAME_SURFACE && !(name->facts & NAME_SURFACE_ARRAY))
+            result = buffer_printf(text, err, "#declare povgloss_of_%d = povgloss_none;\n", name->index);
     return result;
 }
 
 enum result scene_save_names(const struct scene *scene, struct buffer *text, struct error *err)
 {
     enum result result = RESULT_OK;
-    const char *name = scene->names.data, *end = name + scene->names.size;
-    for (int i = 0; !result && name < end; name += strlen(name) + 1, i++)
-        result = buffer_printf(text, err, "#ifdef (%s) #declare povgloss_saved_%d = %s; #end\n", name, i, name);
+    for (const struct scene_name *name = scene->names.declared; !result && name; name = name->next)
+        result = buffer_printf(text, err, "#ifdef (%s) #declare povgloss_saved_%d = %s; #end\n", name->text, name->index,
+                               name->text);
     return result;
 }
 
 enum result scene_restore_names(const struct scene *scene, struct buffer *text, struct error *err)
 {
     enum result result = RESULT_OK;
-    const char *name = scene->names.data, *end = name + scene->names.size;
-    for (int i = 0; !result && name < end; name += strlen(name) + 1, i++)
+    for (const struct scene_name *name = scene->names.declared; !result && name; name = name->next)
         result = buffer_printf(text, err,
                                "#ifdef (%s) #undef %s #end\n"
                                "#ifdef (povgloss_saved_%d) #declare %s = povgloss_saved_%d; #end\n",
-                               name, name, i, name, i);
+                               name->text, name->text, name->index, name->text, name->index);
     return result;
 }

@@ -4,34 +4,28 @@
 #include "scene_tokens.h"
 
 /* Notes that the name at `token` is, or has as its elements, what surfaces begin with. */
-static enum result note_surface(struct scene *scene, const struct scene_file *file, int token, bool array, struct error *err)
+static void note_surface(struct scene *scene, const struct scene_file *file, int token, bool array)
 {
-    if (file->list.tokens[token].kind != TOKEN_WORD)
-        return RESULT_OK;
-    enum result result = add_name(&scene->surfaces, file, token, err);
-    return result || (!array && !is_mark(file, token + 1, "[")) ? result
-                                                              : add_name(&scene->surface_arrays, file, token, err);
+    note_fact(scene, file, token, NAME_SURFACE);
+    if (array || is_mark(file, token + 1, "["))
+        note_fact(scene, file, token, NAME_SURFACE_ARRAY);
 }
 
-/* What the calls of the macro whose name is at `macro` give to its parameter number `position`. */
-static enum result note_arguments(struct scene *scene, const struct scene_file *of, int macro, int position, bool array,
-                                  struct error *err)
+/* What the calls of this macro give to its parameter number `position`. */
+static void note_arguments(struct scene *scene, const struct scene_name *macro, int position, bool array)
 {
-    enum result result = RESULT_OK;
-    const struct token *name = &of->list.tokens[macro];
     for (int i = 0; i < scene->file_count; i++) {
         const struct scene_file *file = &scene->files[i];
-        for (int token = 0; !result && token < file->list.count - 1; token++) {
-            if (!is_call(file, token) || !is_same_word(file, token, of, name))
+        for (int token = 0; token < file->list.count - 1; token++) {
+            if (name_at(file, token) != macro || !is_call(file, token))
                 continue;
             int last = file->list.tokens[token + 1].match, argument = token + 2;
             for (int skip = position; skip > 0 && argument < last; skip--)
                 argument = argument_end(file, argument, last) + 1;
             if (argument < last)
-                result = note_surface(scene, file, argument, array, err);
+                note_surface(scene, file, argument, array);
         }
     }
-    return result;
 }
 
 /* Whether the scene includes a file that isn't rewritten: the macros that it calls keep their parameters. */
@@ -43,45 +37,39 @@ static bool includes_as_it_is(const struct scene *scene)
     return false;
 }
 
-static enum result note_macro(struct scene *scene, const struct scene_file *file, int macro, struct error *err)
+static void note_macro(struct scene *scene, const struct scene_file *file, int macro)
 {
-    enum result result = RESULT_OK;
     int last = is_mark(file, macro + 1, "(") ? file->list.tokens[macro + 1].match : -1, position = 0;
-    for (int token = macro + 2; !result && token < last; token = argument_end(file, token, last) + 1, position++) {
-        if (find_name(&scene->surfaces, file, token) < 0)
+    for (int token = macro + 2; token < last; token = argument_end(file, token, last) + 1, position++) {
+        if (!has_fact(file, token, NAME_SURFACE))
             continue;
-        result = add_name(&scene->names, file, token, err);
-        if (!result && !includes_as_it_is(scene))
-            result = add_name(&scene->surface_macros, file, macro, err);
-        if (!result)
-            result = note_arguments(scene, file, macro, position, find_name(&scene->surface_arrays, file, token) >= 0, err);
+        note_fact(scene, file, token, NAME_DECLARED);
+        if (!includes_as_it_is(scene))
+            note_fact(scene, file, macro, NAME_SURFACE_MACRO);
+        note_arguments(scene, name_at(file, macro), position, has_fact(file, token, NAME_SURFACE_ARRAY));
     }
-    return result;
 }
 
-static enum result note_token(struct scene *scene, const struct scene_file *file, int token, struct error *err)
+static void note_token(struct scene *scene, const struct scene_file *file, int token)
 {
     if (in_list(file, token, glossy_words) && opens_block(file, token))
-        return note_surface(scene, file, token + 2, false, err);
-    if (file->list.tokens[token].kind != TOKEN_DIRECTIVE)
-        return RESULT_OK;
-    if (is_directive(file, token, "macro"))
-        return note_macro(scene, file, token + 1, err);
-    int name = declared_name(file, token), value = name < 0 ? -1 : after_subscripts(file, name + 1) + 1;
-    if (name < 0 || !is_mark(file, value - 1, "=") || find_name(&scene->surfaces, file, name) < 0)
-        return RESULT_OK;
-    return note_surface(scene, file, value, false, err);
+        note_surface(scene, file, token + 2, false);
+    else if (is_directive(file, token, "macro"))
+        note_macro(scene, file, token + 1);
+    else if (file->list.tokens[token].kind == TOKEN_DIRECTIVE) {
+        int name = declared_name(file, token), value = name < 0 ? -1 : after_subscripts(file, name + 1) + 1;
+        if (has_fact(file, name, NAME_SURFACE) && is_mark(file, value - 1, "="))
+            note_surface(scene, file, value, false);
+    }
 }
 
-enum result scene_note_surfaces(struct scene *scene, struct error *err)
+void scene_note_surfaces(struct scene *scene)
 {
-    enum result result = RESULT_OK;
-    size_t before;
+    int before;
     do {
-        before = scene->surfaces.size + scene->surface_arrays.size;
+        before = scene->names.facts;
         for (int i = 0; i < scene->file_count; i++)
-            for (int token = 0; !result && token < scene->files[i].list.count - 1; token++)
-                result = note_token(scene, &scene->files[i], token, err);
-    } while (!result && scene->surfaces.size + scene->surface_arrays.size != before);
-    return result;
+            for (int token = 0; token < scene->files[i].list.count - 1; token++)
+                note_token(scene, &scene->files[i], token);
+    } while (scene->names.facts != before);
 }

@@ -5,8 +5,8 @@
 
 #include "scene.h"
 
-/* Fills surfaces, surface_arrays and surface_macros of the scene, and adds the parameters among the surfaces to its names:
- * once, when all files are known. */
-MUST_CHECK enum result scene_note_surfaces(struct scene *scene, struct error *err);
+/* Notes surfaces, arrays of them and the macros that take them, whose parameters become declared names: once, when all files
+ * are known. */
+void scene_note_surfaces(struct scene *scene);
 
 #endif

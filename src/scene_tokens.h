@@ -277,14 +277,6 @@ static inline int directive_end(const struct scene_file *file, int token, int en
     return after < end ? after : end;
 }
 
-static inline bool is_same_word(const struct scene_file *file, int token, const struct scene_file *other,
-                                const struct token *word)
-{
-    const struct token *own = &file->list.tokens[token];
-    return own->kind == TOKEN_WORD && own->word_length == word->word_length &&
-           !memcmp(file->source.data + own->word, other->source.data + word->word, word->word_length);
-}
-
 /* Whether the name at `token` is called as a macro is. */
 static inline bool is_call(const struct scene_file *file, int token)
 {
@@ -310,35 +302,31 @@ static inline bool may_be_clear(const struct scene_file *file, int first, int la
     return last >= first && file->clear[last + 1] > file->clear[first];
 }
 
-/* The index of the word at `token` in a list of names, or -1. */
-static inline int find_name(const struct buffer *names, const struct scene_file *file, int token)
+/* The name at `token`; NULL where there is no word. */
+static inline struct scene_name *name_at(const struct scene_file *file, int token)
 {
-    if (token < 0 || file->list.tokens[token].kind != TOKEN_WORD)
-        return -1;
-    const char *word = file->source.data + file->list.tokens[token].word;
-    size_t length = file->list.tokens[token].word_length;
-    int index = 0;
-    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1, index++)
-        if (strlen(names->data + at) == length && !memcmp(names->data + at, word, length))
-            return index;
-    return -1;
+    return token >= 0 && token < file->list.count ? file->list.tokens[token].name : NULL;
 }
 
-static inline bool list_has(const struct buffer *names, const char *name)
+static inline bool has_fact(const struct scene_file *file, int token, enum name_fact fact)
 {
-    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1)
-        if (!strcmp(names->data + at, name))
-            return true;
-    return false;
+    const struct scene_name *name = name_at(file, token);
+    return name && name->facts & fact;
 }
 
-static inline enum result add_name(struct buffer *names, const struct scene_file *file, int token, struct error *err)
+/* The index of the declared name at `token`, or -1. */
+static inline int name_index(const struct scene_file *file, int token)
 {
-    if (find_name(names, file, token) >= 0)
-        return RESULT_OK;
-    enum result result = buffer_add(names, file->source.data + file->list.tokens[token].word,
-                                    file->list.tokens[token].word_length, err);
-    return result ? result : buffer_add(names, "", 1, err);
+    const struct scene_name *name = name_at(file, token);
+    return name ? name->index : -1;
+}
+
+/* Of a token that is no word nothing is noted. */
+static inline void note_fact(struct scene *scene, const struct scene_file *file, int token, enum name_fact fact)
+{
+    struct scene_name *name = name_at(file, token);
+    if (name)
+        scene_names_note(&scene->names, name, fact);
 }
 
 #endif

@@ -834,7 +834,7 @@ static void discover__log__files_and_gamma_taken(void **state)
     assert_int_equal(scene.file_count, 3);
     assert_near(scene.working_gamma, GBUFFER_GAMMA_SRGB, 1e-12);
     assert_ok(scene_settle(&scene, &err), err);
-    assert_string_equal(scene.clear.data, "Glass");
+    assert_true(scene_names_find(&scene.names, "Glass")->facts & NAME_CLEAR);
     char *text = copy_text(&scene, SCENE_COPY_CODED, 0);
     assert_non_null(strstr(text, "\n#declare povgloss_name = Name; #if (strcmp(povgloss_name, \"a b.inc\") = 0) "
                                  "#declare povgloss_name = \"coded-001-a_b.inc\"; #end "));
@@ -1112,11 +1112,17 @@ static void load__names__of_all_files_once(void **state)
     write_text("n.inc", "#declare In = 1; #declare A = 2;");
     load_text(&scene, "#declare A = 1; #local Bc = light_source { 0 rgb 1 } #macro M(P) #end #include \"n.inc\"\n"
                       "#declare A = 3; #declare L = sphere { 0, 1 } // #declare No = 1;\n#declare AA = 1;\n#fopen F \"f\" write");
-    static const char names[] = "A\0Bc\0M\0In\0L\0AA\0F";
-    assert_int_equal(scene.names.size, sizeof names);
-    assert_memory_equal(scene.names.data, names, sizeof names);
-    assert_int_equal(scene.lights.size, 3);
-    assert_string_equal(scene.lights.data, "Bc");
+    static const char *const names[] = {"A", "Bc", "M", "In", "L", "AA", "F"};
+    const struct scene_name *name = scene.names.declared;
+    for (int i = 0; i < 7; i++, name = name->next) {
+        assert_non_null(name);
+        assert_string_equal(name->text, names[i]);
+        assert_int_equal(name->index, i);
+        assert_int_equal(!!(name->facts & NAME_LIGHT), i == 1);
+    }
+    assert_null(name);
+    assert_null(scene_names_find(&scene.names, "No"));
+    assert_int_equal(scene_names_find(&scene.names, "light_source")->index, -1);
     scene_free(&scene);
     unlink(in_scratch("n.inc"));
 }
