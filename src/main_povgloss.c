@@ -349,6 +349,15 @@ static void warn(const struct command *command, const char *frame, const struct 
     cli_complain("povgloss: warning", &warning);
 }
 
+/* A folder that stays is no failure of the picture, but must not stay unknown. */
+static void close_passes(struct passes **passes)
+{
+    struct error warning;
+    if (passes_close(*passes, &warning))
+        cli_complain("povgloss: warning", &warning);
+    *passes = NULL;
+}
+
 /* One image to `path`; `frame` names it in messages. */
 static enum result draw_frame(struct command *command, struct passes **passes, int number, const char *frame,
                               const char *path, struct error *err)
@@ -379,10 +388,8 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
     if (!result && last && command->depfile)
         result = passes_reads(*passes, &command->reads, err);
     /* A pipe whose reader went away ends the program as it writes: no folder is there then. */
-    if (last) {
-        passes_close(*passes);
-        *passes = NULL;
-    }
+    if (last)
+        close_passes(passes);
 
     /* 3. the passes file, or the picture by the filter */
     if (!result && command->passes_only)
@@ -419,7 +426,7 @@ static enum result run(struct command *command, struct error *err)
             result = text_list_add(&command->outputs, err, "%s", path);
         free(path);
     }
-    passes_close(passes);
+    close_passes(&passes);
     return result || !command->depfile ? result
                                        : depfile_write(command->depfile, &command->outputs, &command->reads, err);
 }

@@ -541,14 +541,15 @@ enum result passes_reads(const struct passes *passes, struct buffer *files, stru
     return reads_list(&passes->reads, passes->options->scene, &passes->options->switches->ini_files, files, err);
 }
 
-void passes_close(struct passes *passes)
+enum result passes_close(struct passes *passes, struct error *err)
 {
     if (!passes)
-        return;
+        return RESULT_OK;
     free_scene(passes);
     reads_free(&passes->reads);
     free(passes->environment);
     free(passes->preload);
-    work_folder_remove(&passes->folder);
+    enum result result = work_folder_remove(&passes->folder, err);
     free(passes);
+    return result;
 }

@@ -52,7 +52,7 @@ MUST_CHECK enum result passes_render(struct passes *passes, int frame, struct gb
 /* Adds the files that POV-Ray and povgloss read for the frames that were rendered to *files, as reads_list does. */
 MUST_CHECK enum result passes_reads(const struct passes *passes, struct buffer *files, struct error *err);
 
-/* Leaves no folder but `keep`. NULL is allowed. */
-void passes_close(struct passes *passes);
+/* Leaves no folder but `keep`; RESULT_DATA where the temporary one can't be removed. NULL is allowed. */
+MUST_CHECK enum result passes_close(struct passes *passes, struct error *err);
 
 #endif

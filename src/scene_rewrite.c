@@ -1060,7 +1060,7 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
 enum result scene_save_names(const struct scene *scene, struct buffer *text, struct error *err)
 {
     enum result result = RESULT_OK;
-    const char *name = scene->names.data, *end = name + scene->names.size;
+    const char *name = scene->names.data, *end = name ? name + scene->names.size : NULL;
     for (int i = 0; !result && name < end; name += strlen(name) + 1, i++)
         result = buffer_printf(text, err, "#ifdef (%s) #declare povgloss_saved_%d = %s; #end\n", name, i, name);
     return result;
@@ -1069,7 +1069,7 @@ enum result scene_save_names(const struct scene *scene, struct buffer *text, str
 enum result scene_restore_names(const struct scene *scene, struct buffer *text, struct error *err)
 {
     enum result result = RESULT_OK;
-    const char *name = scene->names.data, *end = name + scene->names.size;
+    const char *name = scene->names.data, *end = name ? name + scene->names.size : NULL;
     for (int i = 0; !result && name < end; name += strlen(name) + 1, i++)
         result = buffer_printf(text, err,
                                "#ifdef (%s) #undef %s #end\n"
