@@ -161,7 +161,7 @@ build/figures/figures.png: $(FIGURES)
 	oiiotool $^ --mosaic:pad=8 3x1 -o $@
 
 .PHONY: check
-check: $(PROGRAMS) $(PRELOAD) $(UNIT_TESTS) $(TOOLS) ## all tests; SANITIZE=address,undefined tests a sanitized build
+check: $(PROGRAMS) $(PRELOAD) $(UNIT_TESTS) $(TOOLS) $(FUZZ_REPLAYS) ## all tests; SANITIZE=address,undefined tests a sanitized build
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools CC=$(CC) scripts/check.sh $(UNIT_TESTS)
 
 .PHONY: faults

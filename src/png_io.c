@@ -90,6 +90,9 @@ static bool decode(struct codec *codec)
         return false;
     }
     png_set_user_limits(codec->png, IMAGE_MAX_SIDE, IMAGE_MAX_SIDE);
+    /* Texts and profiles: a chunk claims up to 2 GB, and libpng takes as much before it reads. */
+    png_set_keep_unknown_chunks(codec->png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
+    png_set_chunk_malloc_max(codec->png, codec->input.size);
     png_set_read_fn(codec->png, codec, read_bytes);
     png_read_info(codec->png, codec->info);
     double packed = (double)png_get_rowbytes(codec->png, codec->info) * png_get_image_height(codec->png, codec->info);
