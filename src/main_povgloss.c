@@ -40,6 +40,7 @@ static const char help[] =
     "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
     "                       interpolate; needs +W and +H\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
+    "  --timeout SECONDS    end a POV-Ray process that runs longer, and fail; 0: never (default)\n"
     "  --depfile FILE       write a make rule that names every file the scene read, but the system's\n"
     "  --keep DIR           leave the rewritten scenes and POV-Ray's images in DIR\n"
     "  --povray PROGRAM     the POV-Ray program (default povray)\n";
@@ -107,6 +108,7 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
         {"--keep", &command->passes.keep, NULL, 0, 0},
         {"--povray", &command->passes.povray, NULL, 0, 0},
         {"--jobs", NULL, &command->passes.jobs, 0, 64},
+        {"--timeout", NULL, &command->passes.timeout_s, 0, 10000000},
         {"--subsample", NULL, &command->passes.subsample, 1, 4},
     };
     const char *value;

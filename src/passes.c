@@ -29,6 +29,8 @@ struct passes {
     char *preload;
     struct reads reads;
     int discoveries;
+    char version[POVRAY_VERSION_SIZE]; /* of a POV-Ray that isn't 3.7; told is whether the user knows */
+    bool version_told;
     bool has_folder[PASS_COUNT];
     struct povray_job jobs[PASS_COUNT];
     enum pass_id ids[PASS_COUNT];
@@ -229,6 +231,15 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     return result;
 }
 
+/* A failure may come from a switch or a word that another version doesn't know. */
+static void blame_version(const struct povray_job *job, struct error *err)
+{
+    char version[POVRAY_VERSION_SIZE];
+    struct error cause = *err;
+    if (povray_is_other_version(&job->messages, version))
+        error_set(err, RESULT_POVRAY, "%s; this is POV-Ray %s, and povgloss needs 3.7", cause.text, version);
+}
+
 /* POV-Ray's messages with the names of the user's files in place of the copies'. */
 static enum result report_failure(const struct passes *passes, const struct povray_job *job, struct error *err)
 {
@@ -236,6 +247,7 @@ static enum result report_failure(const struct passes *passes, const struct povr
     struct error ignored = {0};
     enum result result = povray_error_text(&job->messages, &text, &ignored);
     const char *at = text.data ? text.data : "";
+    blame_version(job, err);
     while (!result && *at) {
         const char *name = strstr(at, "File '");
         if (!name) {
@@ -315,7 +327,8 @@ static enum result run_discovery(struct passes *passes, const char *name, const 
     struct input_file log = {0};
     struct error ignored;
     enum result result = scene_arguments(passes, passes->frame, &arguments, err);
-    struct povray_job job = {.name = name, .folder = folder, .arguments = arguments.texts};
+    struct povray_job job = {
+        .name = name, .folder = folder, .arguments = arguments.texts, .timeout_s = passes->options->timeout_s};
     if (!result)
         result = text_printf(&path, err, "%s/" SCENE_DISCOVERY_LOG, folder);
     if (!result)
@@ -382,8 +395,10 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
         result = job_arguments(passes, passes->ids[i], frame, &arguments[i], err);
         if (!result)
             result = text_printf(&folders[i], err, "%s/%s", passes->folder.path, pass_table[passes->ids[i]].name);
-        passes->jobs[i] = (struct povray_job){
-            .name = pass_table[passes->ids[i]].name, .folder = folders[i], .arguments = arguments[i].texts};
+        passes->jobs[i] = (struct povray_job){.name = pass_table[passes->ids[i]].name,
+                                              .folder = folders[i],
+                                              .arguments = arguments[i].texts,
+                                              .timeout_s = options->timeout_s};
     }
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     int first = passes->ids[0] == PASS_PHOTONS; /* the others wait for it */
@@ -398,6 +413,8 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     }
     if (failed >= 0)
         result = report_failure(passes, &passes->jobs[failed], err);
+    if (!result && !povray_is_other_version(&passes->jobs[0].messages, passes->version))
+        passes->version[0] = 0;
     povray_jobs_free(passes->jobs, passes->job_count);
     for (int i = 0; i < passes->job_count; i++) {
         text_list_free(&arguments[i]);
@@ -449,6 +466,16 @@ static enum result check_scene(const struct passes *passes, struct error *note, 
     else
         return note_limits(passes, note, err);
     return RESULT_OK;
+}
+
+static void note_version(struct passes *passes, struct error *note)
+{
+    struct error before = *note;
+    if (!passes->version[0] || passes->version_told)
+        return;
+    passes->version_told = true;
+    error_set(note, RESULT_OK, "%s%sthis is POV-Ray %s: povgloss is made for 3.7, and the picture may be another",
+              before.text, before.text[0] ? "; " : "", passes->version);
 }
 
 /* The images of a long animation don't pile up. */
@@ -529,6 +556,8 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
         result = collect_reads(passes, err);
     if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
+    if (!result)
+        note_version(passes, note);
     if (!result && !options->keep)
         result = remove_images(passes, &images, err);
     if (result)
