@@ -240,6 +240,15 @@ static void blame_version(const struct povray_job *job, struct error *err)
         error_set(err, RESULT_POVRAY, "%s; this is POV-Ray %s, and povgloss needs 3.7", cause.text, version);
 }
 
+/* POV-Ray stops without a word where its image can't be written. */
+static void blame_disk(const struct passes *passes, struct error *err)
+{
+    struct error cause = *err;
+    if (work_folder_is_full(&passes->folder))
+        error_set(err, RESULT_POVRAY, "%s; less than 1 MB is left in %s: set TMPDIR to a folder with more space",
+                  cause.text, passes->folder.path);
+}
+
 /* POV-Ray's messages with the names of the user's files in place of the copies'. */
 static enum result report_failure(const struct passes *passes, const struct povray_job *job, struct error *err)
 {
@@ -248,6 +257,7 @@ static enum result report_failure(const struct passes *passes, const struct povr
     enum result result = povray_error_text(&job->messages, &text, &ignored);
     const char *at = text.data ? text.data : "";
     blame_version(job, err);
+    blame_disk(passes, err);
     while (!result && *at) {
         const char *name = strstr(at, "File '");
         if (!name) {

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 static bool is_empty_folder(const char *path)
@@ -104,6 +105,12 @@ enum result work_folder_remove(struct work_folder *folder, struct error *err)
     free(folder->path);
     *folder = (struct work_folder){0};
     return result;
+}
+
+bool work_folder_is_full(const struct work_folder *folder)
+{
+    struct statvfs disk;
+    return statvfs(folder->path, &disk) == 0 && (double)disk.f_bavail * (double)disk.f_frsize < 1e6;
 }
 
 enum result work_folder_add(const struct work_folder *folder, const char *name, struct error *err)
