@@ -165,8 +165,9 @@ check: $(PROGRAMS) $(PRELOAD) $(UNIT_TESTS) $(TOOLS) $(FUZZ_REPLAYS) ## all test
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools CC=$(CC) scripts/check.sh $(UNIT_TESTS)
 
 .PHONY: faults
-faults: $(PROGRAMS) $(PRELOAD) $(TOOLS) ## every call that can fail, failing in turn (long)
-	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools FAULTS=all prove --exec '' --timer tests/e2e/faults.sh
+faults: $(PROGRAMS) $(PRELOAD) $(TOOLS) ## every call that can fail, failing in turn, and 100 signals (long)
+	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools FAULTS=all MOMENTS=100 prove --exec '' --timer tests/e2e/faults.sh \
+	    tests/e2e/signals.sh
 
 # A corpus grows in build/fuzz; an input that fails is left beside it, and becomes a seed when its cause is gone.
 .PHONY: fuzz

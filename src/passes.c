@@ -11,6 +11,7 @@
 #include "work_folder.h"
 
 #include <assert.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -108,6 +109,8 @@ static enum result write_scenes(struct passes *passes, struct error *err)
 static enum result add_directory(struct passes *passes, const char *path, struct error *err)
 {
     char *absolute = realpath(path, NULL);
+    if (!absolute && errno == ENOMEM)
+        return error_memory(err, 0);
     /* POV-Ray too passes over a folder that isn't there. */
     enum result result = absolute ? text_list_add(&passes->directories, err, "%s", absolute) : RESULT_OK;
     if (!result && absolute)
@@ -181,7 +184,10 @@ static enum result scene_arguments(const struct passes *passes, int frame, struc
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
     /* POV-Ray runs in a folder of its own. */
+    errno = 0;
     char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
+    if (!program && errno == ENOMEM)
+        return error_memory(err, 0);
     enum result result = text_list_add(arguments, err, "%s", program ? program : options->povray);
     free(program);
     for (int i = 0; !result && i < switches->passed.count; i++)
