@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Runs every test under prove and closes with one line, `N passed, N failed`, over all of them.
 #
-# Arguments: the unit test programs. BIN and TOOLS name the folders of the programs and of the tests' own tools.
+# Arguments: the unit test programs. BIN and TOOLS name the folders of the programs and of the tests' own tools; JOBS,
+# test programs at the same time (the processors' number).
 set -u
 
 log=$(mktemp)
@@ -15,7 +16,9 @@ for script in tests/e2e/*.sh; do
     esac
 done
 export CMOCKA_MESSAGE_OUTPUT=TAP BIN TOOLS
-prove --exec '' --merge --timer --verbose "$@" "${scripts[@]}" >"$log"
+# The formatter for files keeps what test programs print together when several run at a time.
+prove --jobs "${JOBS:-$(nproc)}" --formatter TAP::Formatter::File --exec '' --merge --timer --verbose \
+    "$@" "${scripts[@]}" >"$log"
 status=$?
 
 # What failed and why, and prove's own line for every test program; not each test that passed.

@@ -7,7 +7,9 @@
 # nothing in sight is glossy the base must be POV-Ray's picture to the bit; else the picture with mirrors in place of
 # the lobes must be POV-Ray's: RMSE at most 0.002 in linear light and 99.9 % of the pixels within 0.01. Where POV-Ray
 # itself draws another picture when its threads take the pixels in another order (random samples), twice that difference
-# is allowed. A scene with an .ini file of an animation is drawn with it, in its first frame.
+# is allowed. Another picture is said where povgloss warned of something in it, and silent where it didn't; where it says
+# that its passes don't add up though the picture is POV-Ray's, that is a false alarm. A scene with an .ini file of an
+# animation is drawn with it, in its first frame.
 #
 # Variables: BIN, the folder of the programs; OUT, where everything is kept; JOBS, scenes at the same time; LIMIT,
 # seconds for a picture; ONLY, a regular expression for the names of the scenes to run; REPORT, the report's file.
@@ -95,10 +97,16 @@ spread() {
     [ ! -e "$1/again/image.exr" ] || difference "$1/truth/image.exr" "$1/again/image.exr"
 }
 
+# says LOG [PATTERN]: whether a warning in it is about what the picture lacks, or is this one.
+says() {
+    grep '^povgloss: warning: ' "$1" | grep -v -e ': no finish is glossy' -e ': the camera sees no glossy' |
+        grep -q -e "${2:-}"
+}
+
 # judge FOLDER SCENE MODE: the verdict, what it is about, and the difference, separated by tabs.
 judge() {
     local folder=$1 scene=$2 mode=$3 truth=$1/truth/image.exr run=$1/$3
-    local kind=base limits="0 0 0" picture=$run/mirror.exr status measured random own
+    local kind=base limits="0 0 0" picture=$run/mirror.exr right=ok wrong=silent status measured random own
     status=$(cat "$folder/truth/status")
     case $status in
         0) ;;
@@ -128,10 +136,12 @@ judge() {
         }
     fi
     measured=$(difference "$truth" "$picture")
-    within "$measured" "$limits" && printf 'ok\t%s\t%s\n' "$kind" "$measured" && return
+    says "$run/log" "don't add up" && right=alarm
+    within "$measured" "$limits" && printf '%s\t%s\t%s\n' "$right" "$kind" "$measured" && return
     random=$(spread "$folder" "$scene")
-    within "$measured" "$random" 2 && printf 'ok\t%s, random\t%s\t%s\n' "$kind" "$measured" "$random" && return
-    printf 'wrong\t%s\t%s\t%s\n' "$kind" "$measured" "$random"
+    within "$measured" "$random" 2 && printf '%s\t%s, random\t%s\t%s\n' "$right" "$kind" "$measured" "$random" && return
+    says "$run/log" && wrong=said
+    printf '%s\t%s\t%s\t%s\n' "$wrong" "$kind" "$measured" "$random"
 }
 
 # run_scene NAME SCENE: leaves a line of NAME, mode, seconds, and what judge says, in MODE.verdict.
@@ -193,14 +203,18 @@ no antialiasing, at most $limit s a picture, $(nproc) processors.
 $(counts "nothing glossy in sight: POV-Ray's picture to the bit" ok base)
 $(counts "with mirrors POV-Ray's picture" ok mirror)
 $(counts "the same, as far as POV-Ray draws it twice" ok "mirror, random")
-$(counts "another picture" wrong)
+$(counts "another picture, said" said)
+$(counts "another picture, silent" silent)
+$(counts "POV-Ray's picture, but a false alarm" alarm)
 $(counts "refused" refused)
 $(counts "POV-Ray fails in a pass" fails)
 $(counts "stopped by a defect" crash)
 $(counts "time limit" limit)
 $(counts "POV-Ray itself fails" povray)
 EOF
-    section "Another picture" wrong
+    section "Another picture, silent" silent
+    section "Another picture, said" said
+    section "False alarm" alarm
     section "Refused" refused
     section "POV-Ray fails in a pass" fails
     section "Stopped by a defect" crash

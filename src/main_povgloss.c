@@ -41,6 +41,7 @@ static const char help[] =
     "                       interpolate; needs +W and +H\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
     "  --timeout SECONDS    end a POV-Ray process that runs longer, and fail; 0: never (default)\n"
+    "  --no-check           don't compare the sum of the passes with a small picture by POV-Ray itself\n"
     "  --depfile FILE       write a make rule that names every file the scene read, but the system's\n"
     "  --keep DIR           leave the rewritten scenes and POV-Ray's images in DIR\n"
     "  --povray PROGRAM     the POV-Ray program (default povray)\n";
@@ -60,7 +61,7 @@ struct command {
     struct text_list outputs; /* and their names */
     char *path; /* of the scene */
     struct passes_options passes;
-    bool from_scene, resume;
+    bool from_scene, resume, no_check;
     struct cli_filter filter;
     bool filter_options_used;
     bool help, version;
@@ -86,6 +87,7 @@ static bool take_flag(const char *argument, struct command *command)
         {"--version", &command->version},
         {"--from-scene", &command->from_scene},
         {"--resume", &command->resume},
+        {"--no-check", &command->no_check},
     };
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
         if (!strcmp(argument, flags[i].name))
@@ -272,6 +274,7 @@ static enum result parse(int argc, char **argv, struct command *command, struct 
     command->passes.scene = command->path;
     command->passes.switches = switches;
     command->passes.reads = command->depfile;
+    command->passes.check = !command->no_check && !command->filter.quiet;
     command->passes.frames = frames_plan(&switches->frames);
     return result ? result : check_command(command, switches, err);
 }
@@ -385,6 +388,10 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
         result = passes_render(*passes, number, &gbuffer, &note, err);
     if (result && progress.terminal && !command->filter.quiet && progress.shown >= 0 && progress.shown < 100)
         fputc('\n', stderr);
+    if (!result)
+        warn(command, frame, &note);
+    if (!result)
+        result = passes_check(*passes, number, &gbuffer, &note, err);
     if (!result)
         warn(command, frame, &note);
     if (!result && last && command->depfile)

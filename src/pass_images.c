@@ -91,6 +91,29 @@ static void scale_reflectance(struct image *reflectance, double gamma)
         }
 }
 
+/* What is between the eye and the glossy surface is part of the base: of the specular pass only the rest is left, L0 as far as
+ * it gets through. */
+static enum result clear_haze(const struct pass_images *images, struct image *specular, struct error *err)
+{
+    const double gamma = images->scene->working_gamma;
+    struct image haze = {0};
+    enum result result = read_radiance(images, PASS_HAZE, &haze, err);
+    if (!result && !same_size(specular, &haze))
+        result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the specular and the haze pass are of different sizes",
+                           images->name);
+    for (int channel = 0; !result && channel < 3; channel++)
+        for (int y = 0; y < specular->height; y++) {
+            const float *before = image_row(&haze, channel, y);
+            float *row = image_row(specular, channel, y);
+            for (int x = 0; x < specular->width; x++) {
+                double rest = gamma_encode(gamma, (double)row[x]) - gamma_encode(gamma, (double)before[x]);
+                row[x] = (float)gamma_decode(gamma, fmax(rest, 0));
+            }
+        }
+    image_free(&haze);
+    return result;
+}
+
 /* A mixed texture dims the mirror by its share, as it dims the reflectance. */
 static void unmix_specular(struct image *specular, const struct image *exponents, double gamma)
 {
@@ -276,6 +299,8 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         result = read_codes(images, PASS_EXPONENT, &codes, err);
     if (!result)
         result = read_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
+    if (!result && pass_needed(images->scene, PASS_HAZE))
+        result = clear_haze(images, &gbuffer->specular, err);
     if (!result)
         result = read_radiance(images, PASS_REFLECTANCE, &gbuffer->reflectance, err);
     if (!result)
@@ -306,4 +331,9 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     image_free(&directions);
     image_free(&codes);
     return result;
+}
+
+enum result pass_images_read_own(const struct pass_images *images, struct image *image, struct error *err)
+{
+    return read_radiance(images, PASS_OWN, image, err);
 }

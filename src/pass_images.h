@@ -24,4 +24,7 @@ MUST_CHECK enum result pass_image_path(const struct pass_images *images, enum pa
 MUST_CHECK enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
                                         struct error *err);
 
+/* Reads POV-Ray's own picture into *image (3 channels, linear), which the caller frees. */
+MUST_CHECK enum result pass_images_read_own(const struct pass_images *images, struct image *image, struct error *err);
+
 #endif

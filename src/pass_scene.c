@@ -15,6 +15,8 @@ static const char end_mirror[] = "povgloss_dark()\n"
                                  "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
                                  "exponent 1 metallic 0 }\n"
                                  "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
+static const char end_haze[] = "povgloss_dark()\n"
+                               "  #if (povgloss_phong >= 0 | povgloss_reflects) reflection { 0 } #end";
 /* The sky is next to black, as a total reflection shows it, which isn't glossy. POV-Ray takes what a finish reflects to the
  * power 1/exponent: 20 makes one half of the sky, 0.001 nothing, and leaves the reflectivity for a later Gloss(). */
 static const char end_reflectance[] = "povgloss_dark()\n"
@@ -31,7 +33,7 @@ static const char sky_half[] = "sphere { 0, 9e6 inverse hollow pigment { rgb 0 }
 static const char sky_white[] = "sky_sphere { pigment { rgb 1 } }\n";
 #define MIRRORS "no_reflection no_shadow no_radiosity"
 #define SEEN_IN_MIRRORS "no_image"
-static const char outside[] = "povgloss_modifiers() } object { povgloss_object } union { povgloss_nothing()";
+static const char outside[] = "povgloss_leave_copy() object { povgloss_object } povgloss_enter_copy()";
 /* From this transparency on a surface before a glossy one is looked through. A mirrored ray ends where most of it does. */
 #define CLEAR 0.01
 #define MOSTLY_CLEAR 0.5
@@ -43,12 +45,17 @@ const struct pass pass_table[PASS_COUNT] = {
                       .second = {.copy = -1}},
     [PASS_BASE] = {.name = "base",
                    .full_size = true,
-                   .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "", .placed = outside},
+                   .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "",
+                             .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
+    [PASS_HAZE] = {.name = "haze",
+                   .mirror_colour = mirror_white,
+                   .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
+                   .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_haze}},
     [PASS_REFLECTANCE] = {.name = "reflectance",
                           .full_size = true,
                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
@@ -101,6 +108,10 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .second = {.copy = -1},
                        .trailer = sky_white},
+    [PASS_OWN] = {.name = "own",
+                  .full_size = true,
+                  .first = {.copy = SCENE_COPY_PLAIN, .modifiers = ""},
+                  .second = {.copy = -1}},
 };
 
 /* What a copy without textures refers to. */
@@ -144,23 +155,30 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
                                "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
                                "    min(povgloss_lower, povgloss_t)>;\n"
                                "  #declare povgloss_last = povgloss_texture; povgloss_count(<-1, 0, -1, povgloss_t>)\n"
-                               "  %s\n#end\n"
+                               "  povgloss_set_default(povgloss_t) %s povgloss_set_default(0)\n#end\n"
                                "#macro povgloss_cover_of_object(povgloss_uv)\n"
                                "  povgloss_see()\n"
-                               "  #declare povgloss_own = <-1, 0, -1, povgloss_t>; povgloss_count(povgloss_own)\n"
-                               "  %s\n#end\n",
+                               "  #declare povgloss_own = <povgloss_default_state.x, povgloss_default_state.y,\n"
+                               "    povgloss_default_state.z, povgloss_t>;\n"
+                               "  povgloss_count(<-1, 0, -1, povgloss_t>)\n"
+                               "  povgloss_set_default(povgloss_t) %s povgloss_set_default(0)\n#end\n",
                                mirror ? thinned : keep,
                                part->copy == SCENE_COPY_CODED ? coded : mirror ? thinned : keep);
     free(thinned);
     return result;
 }
 
-/* What a texture refers to. The state of a finish is a vector: x the exponent of its Gloss() or of the user's choice for the
+/* What a texture refers to. A #default has a state, too, and its finish in two forms: povgloss_plain as it is written, and
+ * povgloss_shiny, which is glossy where the state says so. The latter is the default but while a transparent pigment takes
+ * it.
+ * The state of a finish is a vector: x the exponent of its Gloss() or of the user's choice for the
  * name that is being declared, or -1; y whether it reflects; z the exponent of its highlight's lobe, or -1; t how transparent
  * the pigment with it is, and all layers below. Automatic gloss leaves transparent surfaces alone: what they reflect inside
  * can't be blurred. POV-Ray's specular highlight is a power 1/roughness of the cosine about the half vector, whose angle is
  * half of that from the mirror direction: an exponent of 1/(4 roughness) there. phong_size is an exponent about the mirror
- * direction. */
+ * direction.
+ * povgloss_counts is how many glossy textures came by (x), transparent ones (y), and objects by names of which neither is
+ * known (z). */
 static enum result add_state_macros(const struct scene *scene, struct buffer *text, struct error *err)
 {
     const struct gloss_choice *choice = scene->choice;
@@ -170,20 +188,27 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#declare povgloss_state = povgloss_none; #declare povgloss_texture = povgloss_none;\n"
         "#declare povgloss_last = povgloss_none; #declare povgloss_own = povgloss_none; #declare povgloss_lower = 1;\n"
         "#declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
-        "#declare povgloss_counts = <0, 0>;\n"
+        "#declare povgloss_default_state = povgloss_none; #declare povgloss_value = 0;\n"
+        "#ifdef (povgloss_plain) #undef povgloss_plain #end\n"
+        "#declare povgloss_counts = <0, 0, 0>;\n"
         "#macro povgloss_add(povgloss_c) #declare povgloss_counts = povgloss_counts + povgloss_c; #end\n"
         "#macro povgloss_count(povgloss_s)\n"
-        "  povgloss_add(<(povgloss_exponent(povgloss_s) >= 0), povgloss_clear(povgloss_s.t)>)\n"
+        "  povgloss_add(<(povgloss_exponent(povgloss_s) >= 0), povgloss_clear(povgloss_s.t), 0>)\n"
         "#end\n"
-        "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_none; #end\n"
+        "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_default_state; #end\n"
         "#macro povgloss_upper_layer()\n"
-        "  #declare povgloss_lower = povgloss_last.t; #declare povgloss_texture = povgloss_none;\n"
+        "  #declare povgloss_lower = povgloss_last.t; #declare povgloss_texture = povgloss_default_state;\n"
+        "#end\n"
+        "#macro povgloss_set_default(povgloss_c)\n"
+        "  #ifdef (povgloss_plain)\n"
+        "    #if (povgloss_clear(povgloss_c)) #default { finish { povgloss_plain } }\n"
+        "    #else #default { finish { povgloss_shiny } } #end\n"
+        "  #end\n"
         "#end\n"
         "#macro povgloss_layered()\n"
         "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
         "    min(povgloss_lower, povgloss_texture.t)>;\n"
         "  #declare povgloss_last = povgloss_texture;\n"
-        "  povgloss_count(povgloss_last)\n"
         "#end\n"
         "#macro povgloss_begin(povgloss_of)\n"
         "  #declare povgloss_state = povgloss_of; #declare povgloss_reflects = 0; #declare povgloss_phong = -1;\n"
@@ -191,7 +216,10 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#macro povgloss_of_finish(povgloss_s)\n"
         "  povgloss_set(povgloss_s.x, povgloss_s.y, povgloss_s.z)\n"
         "#end\n"
-        "#macro povgloss_of_texture(povgloss_s) #declare povgloss_texture = povgloss_s; #end\n"
+        "#macro povgloss_of_texture(povgloss_s)\n"
+        "  #declare povgloss_texture = povgloss_s;\n"
+        "  povgloss_count(<povgloss_s.x, povgloss_s.y, povgloss_s.z, min(povgloss_lower, povgloss_s.t)>)\n"
+        "#end\n"
         "#macro povgloss_of_material(povgloss_s) #declare povgloss_last = povgloss_s; povgloss_count(povgloss_s) #end\n"
         "#macro povgloss_set(povgloss_x, povgloss_y, povgloss_z)\n"
         "  #declare povgloss_state = <povgloss_x, povgloss_y, povgloss_z, povgloss_state.t>;\n"
@@ -250,23 +278,69 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                "povgloss_exponent(povgloss_state));\n"
                                "  %s\n#end\n"
                                "#macro povgloss_end() povgloss_finish(0) #end\n"
-                               "#macro povgloss_end_of_name() povgloss_finish(1) #end\n",
+                               "#macro povgloss_end_of_name() povgloss_finish(1) #end\n"
+                               "#macro povgloss_enter_default()\n"
+                               "  povgloss_set_default(1) povgloss_layer()\n"
+                               "  #declare povgloss_last = povgloss_default_state;\n"
+                               "#end\n"
+                               "#macro povgloss_leave_default()\n"
+                               "  #declare povgloss_default_state = <povgloss_last.x, povgloss_last.y, povgloss_last.z, 0>;\n"
+                               "  #declare povgloss_plain = finish { };\n"
+                               "  #declare povgloss_shiny = finish { povgloss_begin(povgloss_last) povgloss_end() };\n"
+                               "  povgloss_set_default(0)\n"
+                               "#end\n"
+                               "#macro povgloss_of_default() #ifdef (povgloss_plain) povgloss_plain #end #end\n",
                                part->finish_end);
     if (!result && part->placed)
         result = buffer_printf(text, err,
                                "#declare povgloss_depth = 0;\n"
+                               "#declare povgloss_default_counts = <0, 0, 0>;\n"
+                               "#macro povgloss_counted_default()\n"
+                               "  #declare povgloss_default_counts =\n"
+                               "    povgloss_default_counts + povgloss_counts - povgloss_before_default;\n"
+                               "#end\n"
                                "#macro povgloss_enter()\n"
                                "  #if (povgloss_depth = 0) #declare povgloss_before = povgloss_counts; #end\n"
                                "  #declare povgloss_depth = povgloss_depth + 1;\n"
                                "#end\n"
                                "#macro povgloss_leave() #declare povgloss_depth = povgloss_depth - 1; #end\n"
-                               "#macro povgloss_place()\n"
+                               "#macro povgloss_is_glossy()\n"
+                               "  (povgloss_counts.x > povgloss_before.x | (povgloss_counts.y = povgloss_before.y &\n"
+                               "   (povgloss_default_counts.x > 0 | povgloss_counts.z > povgloss_before.z)))\n"
+                               "#end\n"
+                               "#macro povgloss_is_clear()\n"
+                               "  (povgloss_counts.y > povgloss_before.y | povgloss_default_counts.y > 0)\n"
+                               "#end\n"
+                               "#macro povgloss_place(povgloss_f, povgloss_l)\n"
                                "  povgloss_leave()\n"
-                               "  #if (povgloss_depth = 0 & povgloss_counts.u = povgloss_before.u &\n"
-                               "       povgloss_counts.v > povgloss_before.v) %s\n"
-                               "  #else object { povgloss_object } #end\n"
+                               "  #if (povgloss_depth = 0 & povgloss_is_clear() & !povgloss_is_glossy()) %s\n"
+                               "  #else object { povgloss_object } povgloss_note_mixed(povgloss_f, povgloss_l) #end\n"
+                               "#end\n"
+                               "#macro povgloss_note_mixed(povgloss_f, povgloss_l)\n"
+                               "  #if (povgloss_depth = 0 & povgloss_is_glossy() & povgloss_counts.y > povgloss_before.y)\n"
+                               "    #ifndef (povgloss_noted)\n"
+                               "      #declare povgloss_noted = 1;\n"
+                               "      #fopen povgloss_mixed \"" PASS_MIXED_FILE "\" write\n"
+                               "      #write (povgloss_mixed, str(povgloss_f, 0, 0), \" \", str(povgloss_l, 0, 0))\n"
+                               "      #fclose povgloss_mixed\n"
+                               "    #end\n"
+                               "  #end\n"
                                "#end\n",
                                part->placed);
+    if (!result && part->placed)
+        result = buffer_printf(text, err,
+                               "#macro povgloss_place_part(povgloss_f, povgloss_l)\n"
+                               "  povgloss_leave() povgloss_note_mixed(povgloss_f, povgloss_l)\n"
+                               "  #if (povgloss_depth > 0) object { povgloss_object }\n"
+                               "  #else #if (povgloss_is_glossy()) object { povgloss_object %s }\n"
+                               "  #else %s #end #end\n"
+                               "#end\n"
+                               "#macro povgloss_leave_copy() %s #end\n"
+                               "#macro povgloss_enter_copy() %s #end\n",
+                               part->placed_once ? part->modifiers : "",
+                               part->placed_once ? "object { povgloss_object }" : "",
+                               part->placed_once ? "#if (povgloss_depth = 0) povgloss_modifiers() } #end" : "",
+                               part->placed_once ? "#if (povgloss_depth = 0) union { povgloss_nothing() #end" : "");
     if (!result && !is_base(pass))
         result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { povgloss_dark() } }\n", err);
     return result;
@@ -286,6 +360,8 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
     bool coded = part->copy == SCENE_COPY_CODED, tracked = part->copy != SCENE_COPY_PLAIN;
     enum result result = tracked ? add_state_macros(scene, text, err) : RESULT_OK;
     if (!result && tracked)
+        result = scene_declare_states(scene, text, err);
+    if (!result && tracked)
         result = add_cover_macros(part, text, err);
     if (!result && tracked)
         result = coded ? add_coded_macros(pass, text, err) : add_finish_macros(pass, part, text, err);
@@ -299,7 +375,7 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
     }
     if (!result)
         result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n", part->modifiers,
-                               scene->atmosphere && !strcmp(scene->atmosphere, "fog") ? " hollow" : "");
+                               scene->atmosphere ? " hollow" : "");
     if (!result && part->coded)
         result = add_coding_texture(pass, text, err);
     if (!result)
@@ -326,16 +402,28 @@ static enum result add_coded_sky(const struct pass *pass, struct buffer *text, s
     return result ? result : buffer_add_text(text, "}\n", err);
 }
 
+static bool may_hold_clear(const struct scene *scene)
+{
+    for (int i = 0; i < scene->file_count; i++)
+        if (scene->files[i].clear[scene->files[i].list.count] > 0)
+            return true;
+    return false;
+}
+
 /* Whether a mirror without gloss may show a glossy surface. With --gloss all only transparent surfaces are such mirrors. */
 static bool scene_mirrors_gloss(const struct scene *scene)
 {
-    return scene->plain_mirrors && (!scene->choice->all || scene->clear.size > 0);
+    return scene->plain_mirrors && (!scene->choice->all || may_hold_clear(scene));
 }
 
-/* The base pass needs its second copy only there, and where the light counts that a glossy surface throws onto others. */
+/* The base pass needs its second copy only there, and where the light counts that a glossy surface throws onto others. Light
+ * under a surface is lost where a second copy of the surface lies on it. */
 static bool has_second_part(const struct scene *scene, enum pass_id id)
 {
-    return pass_table[id].second.copy >= 0 && (id != PASS_BASE || (scene->glossy && (scene_mirrors_gloss(scene) || scene->radiosity)));
+    return pass_table[id].second.copy >= 0 &&
+           (id != PASS_BASE ||
+            (scene->glossy && !scene->limits[SCENE_LIMIT_SUBSURFACE].line &&
+             (scene_mirrors_gloss(scene) || scene->radiosity)));
 }
 
 static struct scene_part first_part(const struct scene *scene, enum pass_id id)
@@ -373,11 +461,18 @@ static enum result add_photon_macro(enum pass_id id, struct buffer *text, struct
                            err);
 }
 
+bool pass_is_verbatim(const struct scene *scene, enum pass_id id)
+{
+    return id == PASS_OWN && !scene->photons;
+}
+
 enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text, struct error *err)
 {
     const struct pass *pass = &pass_table[id];
     struct scene_part first = first_part(scene, id);
     enum result result = RESULT_OK;
+    if (pass_is_verbatim(scene, id))
+        return buffer_add(text, scene->files[0].source.data, scene->files[0].source.size, err);
     if (scene->version > 0)
         result = buffer_printf(text, err, "#version %.9g;\n", scene->version);
     if (!result && pass->technical)
@@ -385,7 +480,7 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     if (!result)
         result = buffer_add_text(
             text, "#macro povgloss_nothing() sphere { 0, 1e-6 no_image no_reflection no_shadow no_radiosity } #end\n", err);
-    if (!result && has_second_part(scene, id))
+    if (!result)
         result = buffer_add_text(text, "#declare povgloss_default = texture { pigment { rgb 0 } };\n", err);
     /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
     if (!result)
@@ -414,11 +509,15 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
         return false;
-    return id == PASS_BASE || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
+    if (id == PASS_HAZE && !scene->atmosphere)
+        return false;
+    return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])
 {
+    if (pass_is_verbatim(scene, id))
+        return;
     needed[first_part(scene, id).copy] = true;
     if (has_second_part(scene, id))
         needed[pass_table[id].second.copy] = true;

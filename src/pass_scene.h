@@ -13,6 +13,7 @@ enum pass_id {
     PASS_PHOTONS, /* no image: leaves PASS_PHOTONS_FILE in its folder, for those that are run after it */
     PASS_BASE,
     PASS_SPECULAR,
+    PASS_HAZE,
     PASS_REFLECTANCE,
     PASS_POSITION,
     PASS_POSITION_LOW,
@@ -20,10 +21,14 @@ enum pass_id {
     PASS_ENDPOINT_LOW,
     PASS_DIRECTION,
     PASS_EXPONENT,
+    PASS_OWN, /* POV-Ray's own picture of the scene as it is, small and without antialiasing */
     PASS_COUNT,
 };
 
 #define PASS_PHOTONS_FILE "photons.ph"
+/* Left by the base pass in its folder: index of the file and line of the first object that holds something transparent and
+ * something glossy. */
+#define PASS_MIXED_FILE "mixed.txt"
 
 /* A copy of the scene in a union. */
 struct scene_part {
@@ -32,6 +37,7 @@ struct scene_part {
     bool coded;             /* the position-coding texture on the union */
     const char *finish_end; /* what povgloss_end puts last into every finish of a marked copy */
     const char *placed;     /* what povgloss_place makes of povgloss_object, where it is transparent without gloss */
+    bool placed_once;       /* that is the only copy of it: it is outside of the union */
 };
 
 struct pass {
@@ -49,10 +55,14 @@ struct pass {
 
 extern const struct pass pass_table[PASS_COUNT];
 
-/* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some;
- * exponents where there are several, where a texture may mix a glossy surface with another one, or where a total reflection
- * may be taken for one. */
+/* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
+ * where it has one; exponents where there are several, where a texture may mix a glossy surface with another one, or where
+ * a total reflection may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
+
+/* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are
+ * loaded as in the other passes. */
+bool pass_is_verbatim(const struct scene *scene, enum pass_id id);
 
 /* Marks the kinds of copies that the pass includes. */
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT]);
@@ -61,7 +71,7 @@ void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_C
  * rendered. */
 MUST_CHECK enum result pass_discovery_text(const struct scene *scene, struct buffer *text, struct error *err);
 
-/* Appends the pass's scene, which includes the copies' main files by their names. */
+/* Appends the pass's scene, which includes the copies' main files by their names or is the user's own text. */
 MUST_CHECK enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text,
                                        struct error *err);
 

@@ -4,8 +4,10 @@
  */
 #include "passes.h"
 
+#include "compose.h"
 #include "input_file.h"
 #include "pass_images.h"
+#include "picture_check.h"
 #include "reads.h"
 #include "scene_discover.h"
 #include "work_folder.h"
@@ -86,13 +88,19 @@ static enum result write_pass(struct passes *passes, enum pass_id id, struct err
     return result;
 }
 
+/* What is only a part of POV-Ray's picture has nothing to be compared with. */
+static bool is_checked(const struct passes *passes)
+{
+    return passes->options->check && !passes->options->switches->partial;
+}
+
 static enum result write_scenes(struct passes *passes, struct error *err)
 {
     bool needed[SCENE_COPY_COUNT] = {false};
     enum result result = RESULT_OK;
     passes->job_count = 0;
     for (int id = 0; !result && id < PASS_COUNT; id++) {
-        if (!pass_needed(&passes->scene, (enum pass_id)id))
+        if (!pass_needed(&passes->scene, (enum pass_id)id) || (id == PASS_OWN && !is_checked(passes)))
             continue;
         passes->ids[passes->job_count++] = (enum pass_id)id;
         pass_copies(&passes->scene, (enum pass_id)id, needed);
@@ -206,6 +214,41 @@ static enum result scene_arguments(const struct passes *passes, int frame, struc
     return result;
 }
 
+/* A camera made of a mesh has a face for each pixel; image_width is for the proportion, or for something drawn by pixels. */
+static bool file_depends_on_size(const struct scene_file *file)
+{
+    const struct token *tokens = file->list.tokens;
+    for (int i = 0; i < file->list.count; i++) {
+        if (token_is(&file->source, &tokens[i], TOKEN_WORD, "mesh_camera"))
+            return true;
+        bool width = token_is(&file->source, &tokens[i], TOKEN_WORD, "image_width");
+        if (!width && !token_is(&file->source, &tokens[i], TOKEN_WORD, "image_height"))
+            continue;
+        const char *other = width ? "image_height" : "image_width";
+        if (i + 2 >= file->list.count || !token_is(&file->source, &tokens[i + 1], TOKEN_MARK, "/") ||
+            !token_is(&file->source, &tokens[i + 2], TOKEN_WORD, other))
+            return true;
+        i += 2;
+    }
+    return false;
+}
+
+/* POV-Ray's own picture is small, unless the scene isn't the same in another size. */
+static enum result add_own_size(const struct passes *passes, struct text_list *arguments, struct error *err)
+{
+    enum { POVRAY_WIDTH = 160, POVRAY_HEIGHT = 120 }; /* where nothing is said */
+    const struct povray_switches *switches = passes->options->switches;
+    int width = switches->width ? switches->width : POVRAY_WIDTH;
+    int height = switches->height ? switches->height : POVRAY_HEIGHT;
+    bool depends = false;
+    for (int i = 0; i < passes->scene.file_count; i++)
+        depends |= file_depends_on_size(&passes->scene.files[i]);
+    if (!depends)
+        picture_check_size(width, height, &width, &height);
+    enum result result = text_list_add(arguments, err, "+W%d", width);
+    return result ? result : text_list_add(arguments, err, "+H%d", height);
+}
+
 /* The user's switches first, then those on which the pass depends: POV-Ray takes the last one. */
 static enum result job_arguments(const struct passes *passes, enum pass_id id, int frame, struct text_list *arguments,
                                  struct error *err)
@@ -219,8 +262,10 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     const char *const *format = pass->codes ? codes : radiance;
     for (int i = 0; !result && format[i]; i++)
         result = text_list_add(arguments, err, "%s", format[i]);
-    if (!result && !pass->full_size)
+    if (!result && (!pass->full_size || id == PASS_OWN))
         result = text_list_add(arguments, err, "-A");
+    if (!result && id == PASS_OWN)
+        result = add_own_size(passes, arguments, err);
     /* Reflectivities are small, and their edges show as much as those of the picture. */
     if (!result && id == PASS_REFLECTANCE && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
@@ -255,9 +300,22 @@ static void blame_disk(const struct passes *passes, struct error *err)
                   cause.text, passes->folder.path);
 }
 
+/* A file that POV-Ray found in a library folder, by the user's name of the folder. */
+static enum result add_user_name(const struct passes *passes, const char *path, struct buffer *text, struct error *err)
+{
+    int index, length = 0;
+    if (sscanf(path, "../lib%d/%n", &index, &length) < 1 || !length || index < 0 ||
+        index >= passes->directory_names.count)
+        return buffer_add_text(text, path, err);
+    const char *folder = passes->directory_names.texts[index];
+    bool here = !strcmp(folder, ".");
+    return buffer_printf(text, err, "%s%s%s", here ? "" : folder, here ? "" : "/", path + length);
+}
+
 /* POV-Ray's messages with the names of the user's files in place of the copies'. */
 static enum result report_failure(const struct passes *passes, const struct povray_job *job, struct error *err)
 {
+    bool verbatim = job->name == pass_table[PASS_OWN].name && pass_is_verbatim(&passes->scene, PASS_OWN);
     struct buffer text = {0}, translated = {0};
     struct error ignored = {0};
     enum result result = povray_error_text(&job->messages, &text, &ignored);
@@ -277,10 +335,10 @@ static enum result report_failure(const struct passes *passes, const struct povr
         const char *slash = strrchr(copy, '/');
         int file = scene_file_of_copy(&passes->scene, slash ? slash + 1 : copy);
         result = buffer_add(&translated, at, (size_t)(name - at), &ignored);
-        bool wrapper = !strcmp(copy, "pass.pov");
-        const char *path = file >= 0 ? passes->scene.files[file].path : wrapper ? passes->options->scene : copy;
+        bool is_pass = !strcmp(copy, "pass.pov"), wrapper = is_pass && !verbatim;
+        const char *path = file >= 0 ? passes->scene.files[file].path : is_pass ? passes->options->scene : copy;
         if (!result)
-            result = buffer_add_text(&translated, path, &ignored);
+            result = add_user_name(passes, path, &translated, &ignored);
         at = end ? end : name + strlen(name);
         /* The wrapper's own lines mean nothing to the user: what is found there was left open by the scene. */
         size_t line = wrapper && end ? strspn(end + 1, " line0123456789") : 0;
@@ -390,13 +448,32 @@ static enum result discover(struct passes *passes, struct error *err)
 }
 
 /* Another frame's. */
-static enum result remove_photons(const struct passes *passes, struct error *err)
+static enum result remove_left(const struct passes *passes, enum pass_id id, const char *name, struct error *err)
 {
     char *path;
-    enum result result = text_printf(&path, err, "%s/%s/" PASS_PHOTONS_FILE, passes->folder.path,
-                                     pass_table[PASS_PHOTONS].name);
+    enum result result = text_printf(&path, err, "%s/%s/%s", passes->folder.path, pass_table[id].name, name);
     if (!result)
         remove(path);
+    free(path);
+    return result;
+}
+
+/* Adds to *note where glass and something glossy are one object. */
+static enum result note_mixed(const struct passes *passes, struct error *note, struct error *err)
+{
+    char *path;
+    enum result result = text_printf(&path, err, "%s/%s/" PASS_MIXED_FILE, passes->folder.path, pass_table[PASS_BASE].name);
+    FILE *stream = result ? NULL : fopen(path, "r");
+    int file, line;
+    if (stream && fscanf(stream, "%d %d", &file, &line) == 2 && file >= 0 && file < passes->scene.file_count) {
+        size_t length = strlen(note->text);
+        snprintf(note->text + length, sizeof note->text - length,
+                 "%s%s:%d: this object holds something transparent and something glossy: reflections inside the "
+                 "transparent part are left out; make them objects of their own",
+                 length ? "; " : "", passes->scene.files[file].path, line);
+    }
+    if (stream)
+        fclose(stream);
     free(path);
     return result;
 }
@@ -419,7 +496,9 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     int first = passes->ids[0] == PASS_PHOTONS; /* the others wait for it */
     if (!result && first)
-        result = remove_photons(passes, err);
+        result = remove_left(passes, PASS_PHOTONS, PASS_PHOTONS_FILE, err);
+    if (!result)
+        result = remove_left(passes, PASS_BASE, PASS_MIXED_FILE, err);
     if (!result && first)
         result = povray_run(passes->jobs, 1, 1, passes->environment, no_progress, NULL, &failed, err);
     if (!result) {
@@ -453,16 +532,14 @@ static enum result note_limits(const struct passes *passes, struct error *note, 
     const struct scene *scene = &passes->scene;
     struct buffer text = {0};
     enum result result = RESULT_OK;
-    if (scene->atmosphere)
-        result = buffer_printf(&text, err,
-                               "; the scene's %s between the eye and a glossy surface is also seen in its reflection; the "
-                               "picture there is too bright by its share",
-                               scene->atmosphere);
-    for (int i = 0; !result && scene_limit(i); i++)
-        if (scene->limits & 1u << i)
-            result = buffer_printf(&text, err, "; %s", scene_limit(i));
+    for (int i = 0; !result && i < SCENE_LIMIT_COUNT; i++) {
+        const struct scene_place *place = &scene->limits[i];
+        if (place->line && (i != SCENE_LIMIT_SUBSURFACE || scene->plain_mirrors))
+            result = buffer_printf(&text, err, "; %s:%d: %s", scene->files[place->file].path, place->line,
+                                   scene_limit_text((enum scene_limit)i));
+    }
     if (!result && text.size)
-        error_set(note, RESULT_OK, "%s: %s", passes->options->scene, text.data + 2);
+        error_set(note, RESULT_OK, "%s", text.data + 2);
     buffer_free(&text);
     return result;
 }
@@ -495,16 +572,24 @@ static void note_version(struct passes *passes, struct error *note)
 }
 
 /* The images of a long animation don't pile up. */
+static enum result remove_image(const struct passes *passes, const struct pass_images *images, enum pass_id id,
+                                struct error *err)
+{
+    char *path;
+    enum result result = passes->options->keep ? RESULT_OK : pass_image_path(images, id, &path, err);
+    if (result || passes->options->keep)
+        return result;
+    remove(path);
+    free(path);
+    return RESULT_OK;
+}
+
 static enum result remove_images(const struct passes *passes, const struct pass_images *images, struct error *err)
 {
     enum result result = RESULT_OK;
-    for (int i = 0; !result && i < passes->job_count; i++) {
-        char *path;
-        result = pass_image_path(images, passes->ids[i], &path, err);
-        if (!result)
-            remove(path);
-        free(path);
-    }
+    for (int i = 0; !result && i < passes->job_count; i++)
+        if (passes->ids[i] != PASS_OWN)
+            result = remove_image(passes, images, passes->ids[i], err);
     return result;
 }
 
@@ -552,17 +637,22 @@ enum result passes_open(const struct passes_options *options, struct passes **op
     return result ? result : prepare(passes, options->frames.first, note, err);
 }
 
+static struct pass_images images_of(const struct passes *passes, const char *number)
+{
+    return (struct pass_images){.folder = passes->folder.path,
+                                .number = number,
+                                .name = passes->options->scene,
+                                .scene = &passes->scene,
+                                .subsample = passes->options->subsample};
+}
+
 enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
                           struct error *err)
 {
     const struct passes_options *options = passes->options;
     char number[FRAMES_NUMBER_SIZE];
     frames_number(&options->frames, frame, number);
-    const struct pass_images images = {.folder = passes->folder.path,
-                                       .number = number,
-                                       .name = options->scene,
-                                       .scene = &passes->scene,
-                                       .subsample = options->subsample};
+    const struct pass_images images = images_of(passes, number);
     *gbuffer = (struct gbuffer){0};
     note->text[0] = 0;
     enum result result = prepare_frame(passes, frame, err);
@@ -574,10 +664,55 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
         result = pass_images_read(&images, gbuffer, note, err);
     if (!result)
         note_version(passes, note);
-    if (!result && !options->keep)
+    if (!result)
+        result = note_mixed(passes, note, err);
+    if (!result)
         result = remove_images(passes, &images, err);
     if (result)
         gbuffer_free(gbuffer);
+    return result;
+}
+
+static void note_difference(const struct passes *passes, const struct picture_difference *difference, struct error *note)
+{
+    const float *sum = difference->sum, *own = difference->own;
+    if (difference->found)
+        error_set(note, RESULT_OK,
+                  "%s: the passes don't add up to POV-Ray's own picture in %.2g %% of the image, most at pixel %d,%d: %.2g "
+                  "%.2g %.2g in place of %.2g %.2g %.2g; something there isn't modelled (Limits in the README names the "
+                  "usual: fog, media, glass, focal blur): look there at base, specular.* and reflectance.* of povgloss "
+                  "passes, and leave the finish to POV-Ray by --gloss NAME=inf",
+                  passes->options->scene, 100 * difference->share, difference->x, difference->y, (double)sum[0],
+                  (double)sum[1], (double)sum[2], (double)own[0], (double)own[1], (double)own[2]);
+}
+
+enum result passes_check(const struct passes *passes, int frame, const struct gbuffer *gbuffer, struct error *note,
+                         struct error *err)
+{
+    const struct passes_options *options = passes->options;
+    /* Radiosity is interpolated between random places, others in each picture. */
+    const double tolerance = passes->scene.radiosity ? 0.03 : 0.01;
+    bool single_rays = options->subsample == 1 && !options->switches->antialias && !passes->scene.focal_blur &&
+                       !passes->scene.radiosity;
+    struct picture_difference difference;
+    struct image sum = {0}, own = {0};
+    char number[FRAMES_NUMBER_SIZE];
+    note->text[0] = 0;
+    if (!is_checked(passes))
+        return RESULT_OK;
+    frames_number(&options->frames, frame, number);
+    const struct pass_images images = images_of(passes, number);
+    enum result result = pass_images_read_own(&images, &own, err);
+    if (!result)
+        result = compose(gbuffer, &gbuffer->specular, &sum, err);
+    if (!result)
+        result = picture_check(&sum, &own, single_rays, tolerance, &difference, err);
+    if (!result)
+        note_difference(passes, &difference, note);
+    if (!result)
+        result = remove_image(passes, &images, PASS_OWN, err);
+    image_free(&sum);
+    image_free(&own);
     return result;
 }
 

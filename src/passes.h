@@ -3,11 +3,14 @@
  *   base         the scene with the glossy finishes' reflection switched off
  *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors and the rest is black, mirrored
  *                rays see the scene itself
+ *   haze         where there is fog, a rainbow or media: the same without mirrors, which is what they add before the glossy
+ *                surface to the specular pass
  *   reflectance  glossy surfaces with their own reflection and no shading, under a sky of one half
  *   position     a, coded as a colour (position_code.h)
  *   endpoint     b: mirrors seen by the camera, coded positions seen by mirrored rays, coded directions where they miss
  *   direction    the camera's rays, coded: they give the eye and the view angle whatever the camera
  *   exponent     the Phong exponent, where the scene has more than one
+ *   own          POV-Ray's own picture, small: what the parts must add up to
  */
 #ifndef POVGLOSS_PASSES_H
 #define POVGLOSS_PASSES_H
@@ -28,6 +31,7 @@ struct passes_options {
                              switches say the size */
     int jobs;             /* POV-Ray processes at the same time; 0: two more than there are cores */
     int timeout_s;        /* for each POV-Ray process; 0: none */
+    bool check;           /* POV-Ray's own picture is rendered, too, for passes_check */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;
@@ -49,6 +53,11 @@ MUST_CHECK enum result passes_open(const struct passes_options *options, struct 
  * the user's files. *note as above. No process is left. */
 MUST_CHECK enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
                                      struct error *err);
+
+/* Compares what passes_render made of the frame with POV-Ray's own picture, unless `check` is false or only a part of the
+ * picture is rendered. *note is a warning where they differ: something in the scene isn't modelled by the passes. */
+MUST_CHECK enum result passes_check(const struct passes *passes, int frame, const struct gbuffer *gbuffer,
+                                    struct error *note, struct error *err);
 
 /* Adds the files that POV-Ray and povgloss read for the frames that were rendered to *files, as reads_list does. */
 MUST_CHECK enum result passes_reads(const struct passes *passes, struct buffer *files, struct error *err);

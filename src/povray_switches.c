@@ -82,6 +82,16 @@ static void note_switch(const char *argument, const char *letters, const char *s
         *on = argument[0] == '+' || (argument[0] != '-' && is_word);
 }
 
+static bool is_partial(const char *argument)
+{
+    static const char *const parts[][2] = {
+        {"SR", "Start_Row"}, {"ER", "End_Row"}, {"SC", "Start_Column"}, {"EC", "End_Column"}};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (value_of(argument, parts[i][0], parts[i][1]))
+            return true;
+    return false;
+}
+
 static void note(struct povray_switches *switches, const char *argument)
 {
     struct frames_options *frames = &switches->frames;
@@ -93,6 +103,7 @@ static void note(struct povray_switches *switches, const char *argument)
     note_switch(argument, "KC", "Cyclic_Animation", &frames->cyclic);
     if (!value_of(argument, "AM", "Sampling_Method"))
         note_switch(argument, "A", "Antialias", &switches->antialias);
+    switches->partial |= is_partial(argument);
     int width = size_of(argument, "W", "Width"), height = size_of(argument, "H", "Height");
     switches->width = width ? width : switches->width;
     switches->height = height ? height : switches->height;

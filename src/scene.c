@@ -6,6 +6,7 @@
 #include "gbuffer.h"
 #include "input_file.h"
 #include "lobe.h"
+#include "scene_surfaces.h"
 #include "scene_tokens.h"
 
 #include <stdlib.h>
@@ -183,18 +184,23 @@ static enum result note_variables(struct scene *scene, const struct scene_file *
 /* What the passes can't hold: a word in a block of this name. */
 static const struct limit {
     const char *word, *block, *effect;
-} limits[] = {
-    {"exponent", "reflection", "the exponent of a glossy reflection counts as 1"},
-    {"reflection_exponent", "finish", "the reflection_exponent of a glossy finish counts as 1"},
-    {"irid", "finish", "irid in a glossy finish doesn't tint its reflection"},
-    {"aperture", "camera", "focal blur leaves glossy reflections as sharp as they are"},
-    {"save_file", "photons", "photons that the scene saves aren't reflected by glossy surfaces"},
+} limits[SCENE_LIMIT_COUNT] = {
+    [SCENE_LIMIT_EXPONENT] = {"exponent", "reflection", "the exponent of a glossy reflection counts as 1"},
+    [SCENE_LIMIT_REFLECTION_EXPONENT] = {"reflection_exponent", "finish",
+                                         "the reflection_exponent of a glossy finish counts as 1"},
+    [SCENE_LIMIT_IRID] = {"irid", "finish", "irid in a glossy finish doesn't tint its reflection"},
+    [SCENE_LIMIT_FOCAL_BLUR] = {"aperture", "camera", "focal blur leaves glossy reflections as sharp as they are"},
+    [SCENE_LIMIT_SAVED_PHOTONS] = {"save_file", "photons",
+                                   "photons that the scene saves aren't reflected by glossy surfaces"},
+    [SCENE_LIMIT_SUBSURFACE] = {"subsurface", "global_settings",
+                                "with subsurface light, glossy surfaces that are seen in a mirror reflect nothing there"},
+    [SCENE_LIMIT_MEDIA] = {"media", "interior",
+                           "media in an object neither dim nor tint the reflection of a glossy surface in or behind it"},
 };
-#define LIMIT_COUNT ((int)(sizeof limits / sizeof *limits))
 
-const char *scene_limit(int index)
+const char *scene_limit_text(enum scene_limit limit)
 {
-    return index < LIMIT_COUNT ? limits[index].effect : NULL;
+    return limits[limit].effect;
 }
 
 /* Whether the finish at this brace reflects, or may since it begins with a name. */
@@ -207,11 +213,12 @@ static bool may_reflect(const struct scene *scene, const struct scene_file *file
 static void note_limits(struct scene *scene, const struct scene_file *file, int token)
 {
     int brace = file->list.tokens[token].parent;
-    for (int i = 0; brace > 0 && i < LIMIT_COUNT; i++) {
+    for (int i = 0; brace > 0 && i < SCENE_LIMIT_COUNT; i++) {
         bool one = file->list.tokens[token + 1].kind == TOKEN_NUMBER && number_value(file, token + 1) == 1;
         if (is_word(file, token, limits[i].word) && is_word(file, brace - 1, limits[i].block) && !one &&
-            (strcmp(limits[i].block, "finish") || may_reflect(scene, file, brace)))
-            scene->limits |= 1u << i;
+            (strcmp(limits[i].block, "finish") || may_reflect(scene, file, brace)) && !scene->limits[i].line)
+            scene->limits[i] =
+                (struct scene_place){.file = (int)(file - scene->files), .line = file->list.tokens[token].line};
     }
 }
 
@@ -240,9 +247,6 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
         scene->plain_mirrors = true;
     if (in_list(file, token, highlight_words))
         scene->highlights = true;
-    if (in_list(file, token, glossy_words) && opens_block(file, token) && is_mark(file, token + 3, "[") &&
-        tokens[token + 2].kind == TOKEN_WORD)
-        return add_name(&scene->surface_arrays, file, token + 2, err);
     if (is_word(file, token, "radiosity") && opens_block(file, token))
         scene->radiosity = true;
     if (is_word(file, token, "ior"))
@@ -319,6 +323,10 @@ static enum result count_clear(struct scene *scene, struct error *err)
         for (int token = 0; token < file->list.count; token++)
             file->clear[token + 1] = file->clear[token] + (names_clear(scene, file, token) ||
                                                             find_name(&scene->parameters, file, token) >= 0);
+        for (int token = 0; token < file->list.count; token++)
+            scene->clear_default |= (is_directive(file, token, "default") || is_word(file, token, "default")) &&
+                                    opens_block(file, token) &&
+                                    may_be_clear(file, token + 2, file->list.tokens[token + 1].match);
     }
     return RESULT_OK;
 }
@@ -369,19 +377,11 @@ static enum result note_clear_names(struct scene *scene, struct error *err)
     return result;
 }
 
-static bool has_name(const struct buffer *names, const char *name)
-{
-    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1)
-        if (!strcmp(names->data + at, name))
-            return true;
-    return false;
-}
-
 /* Notes what the user chose to be glossy. */
 static enum result note_choice(struct scene *scene, const struct gloss_choice *choice, struct error *err)
 {
     for (int i = 0; i < choice->name_count; i++) {
-        if (!has_name(&scene->glossable, choice->names[i].name))
+        if (!list_has(&scene->glossable, choice->names[i].name))
             return error_set(err, RESULT_DATA,
                              "%s: no finish, texture or material is declared by the name %s: `povgloss list` shows those "
                              "that reflect",
@@ -457,7 +457,9 @@ double scene_default_gamma(const struct scene *scene)
 
 enum result scene_settle(struct scene *scene, struct error *err)
 {
-    enum result result = note_clear_names(scene, err);
+    enum result result = scene_note_surfaces(scene, err);
+    if (!result)
+        result = note_clear_names(scene, err);
     if (!result)
         result = count_clear(scene, err);
     return result ? result : note_choice(scene, scene->choice, err);
@@ -499,7 +501,9 @@ void scene_free(struct scene *scene)
     buffer_free(&scene->names);
     buffer_free(&scene->lights);
     buffer_free(&scene->arrays);
+    buffer_free(&scene->surfaces);
     buffer_free(&scene->surface_arrays);
+    buffer_free(&scene->surface_macros);
     buffer_free(&scene->layered);
     buffer_free(&scene->glossable);
     buffer_free(&scene->clear);

@@ -26,6 +26,23 @@ struct scene_file {
     int include_count;
 };
 
+/* What the picture of a glossy scene lacks. */
+enum scene_limit {
+    SCENE_LIMIT_EXPONENT,
+    SCENE_LIMIT_REFLECTION_EXPONENT,
+    SCENE_LIMIT_IRID,
+    SCENE_LIMIT_FOCAL_BLUR,
+    SCENE_LIMIT_SAVED_PHOTONS,
+    SCENE_LIMIT_SUBSURFACE,
+    SCENE_LIMIT_MEDIA,
+    SCENE_LIMIT_COUNT,
+};
+
+/* Where in the scene; line 0: nowhere. */
+struct scene_place {
+    int file, line;
+};
+
 struct scene {
     const struct gloss_choice *choice;
     struct scene_file *files; /* the first one is the scene */
@@ -36,7 +53,9 @@ struct scene {
     struct buffer names;   /* every name that is declared anywhere, each ended by NUL, without repeats */
     struct buffer lights;  /* in the same form: names that were declared as a light_source, */
     struct buffer arrays;  /* as an array filled in its declaration, with a finish written out in it, */
-    struct buffer surface_arrays; /* as an array whose elements textures, finishes or materials begin with, */
+    struct buffer surfaces;  /* what textures, finishes or materials begin with, */
+    struct buffer surface_arrays; /* arrays of such, */
+    struct buffer surface_macros; /* macros with such a parameter; names that were declared */
     struct buffer layered; /* as a texture of several layers, */
     struct buffer glossable; /* as a finish, texture or material, */
     struct buffer clear;     /* as something that may be transparent, */
@@ -46,6 +65,7 @@ struct scene {
     bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
     bool mixes;            /* some texture may mix others: a map, an average, a blob, a mesh with a texture at each corner */
     bool radiosity;        /* light that a mirror throws onto other things may be computed */
+    bool clear_default;    /* an object without a texture may be transparent, by a #default */
     bool refracts;         /* something has an index of refraction */
     bool highlights;       /* some finish names the size of a highlight */
     double version;        /* of the scene's first #version; 0: none */
@@ -53,7 +73,7 @@ struct scene {
     int gammas;            /* how often an assumed_gamma is written anywhere */
     bool focal_blur;        /* some camera has an aperture */
     bool photons;           /* its global_settings may shoot photons */
-    unsigned limits;        /* bit i: it holds what scene_limit(i) is about */
+    struct scene_place limits[SCENE_LIMIT_COUNT]; /* the first place that one is about */
     const char *atmosphere; /* "fog", "rainbow" or "media" where the scene has one at top level, else NULL */
 };
 
@@ -77,8 +97,8 @@ MUST_CHECK enum result scene_find_file(const char *name, const char *const *dire
 MUST_CHECK enum result scene_add_file(struct scene *scene, char *path, const char *const *directories,
                                       int directory_count, int *index, struct error *err);
 
-/* What the picture of a glossy scene with a construct of this kind lacks; NULL: there are no more. */
-const char *scene_limit(int index);
+/* What a limit means, in words for the user. */
+const char *scene_limit_text(enum scene_limit limit);
 
 bool scene_has_unknown_include(const struct scene_file *file);
 

@@ -71,8 +71,12 @@ struct writer {
     int value_end;   /* the token after that block: a texture there is a further layer */
     int end;         /* the token where the block ends that is being written; branches of a conditional may open it, too */
     int object_end;  /* the same of the last block that write_object wrote */
+    int moved_pigment; /* the last that was written before its turn */
+    int asked_union; /* the last brace that `splits` was asked about, and what it said */
+    bool asked_splits;
     bool given;      /* in the declaration of a name that the user chose to be glossy */
     bool in_macro;
+    bool in_default; /* in the braces of a #default */
     int conditions;  /* depth of #if, #while, #for, #switch, #macro; which of them are macros */
     bool is_macro[MAX_CONDITIONS];
     struct buffer out;
@@ -199,6 +203,15 @@ static enum result replace_block(struct writer *writer, int token, int last, con
     return result ? result : buffer_add_text(&writer->out, text, err);
 }
 
+/* Of a finish that is black no light gets under the surface: `subsurface { translucency X }` leaves X. */
+static enum result write_subsurface(struct writer *writer, int token, int last, struct error *err)
+{
+    enum result result = replace(writer, token, token + 2, "#declare povgloss_dropped =", err);
+    if (!result)
+        result = write_tokens(writer, token + 3, last, err);
+    return result ? result : replace(writer, last, last, "; ", err);
+}
+
 /* In global_settings of a discovery copy: every assumed_gamma goes to the log. */
 static enum result write_gamma_log(struct writer *writer, int first, int end, struct error *err)
 {
@@ -245,22 +258,78 @@ static enum result write_statement(struct writer *writer, int token, int last, s
     return result ? result : copy_to(writer, writer->file->list.tokens[last].end, err);
 }
 
+/* Appends the subscripts after the name at `name`. Those that may differ when they are computed again, as by rand(), are the
+ * variables VARIABLE_0, VARIABLE_1 ... that hoist_subscripts declares. */
+static enum result add_subscripts(const struct writer *writer, int name, const char *variable, struct buffer *text,
+                                  struct error *err)
+{
+    const struct token *tokens = writer->file->list.tokens;
+    int end = after_subscripts(writer->file, name + 1);
+    enum result result = RESULT_OK;
+    if (!has_effects(writer, name + 1, end - 1))
+        return buffer_add(text, writer->file->source.data + tokens[name].end, tokens[end - 1].end - tokens[name].end, err);
+    for (int i = name + 1, index = 0; !result && i < end; i = subscript_end(writer->file, i) + 1)
+        result = buffer_printf(text, err, "[%s_%d]", variable, index++);
+    return result;
+}
+
+/* Declares those variables in front of the token `before` and puts them in the place of the subscripts. */
+static enum result hoist_subscripts(struct writer *writer, int before, int name, const char *variable, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    const struct token *tokens = file->list.tokens;
+    int end = after_subscripts(file, name + 1);
+    if (!has_effects(writer, name + 1, end - 1))
+        return RESULT_OK;
+    struct buffer text = {0};
+    enum result result = insert_before(writer, before, "", err);
+    for (int i = name + 1, index = 0, last; !result && i < end; i = last + 1) {
+        last = subscript_end(file, i);
+        result = buffer_printf(&writer->out, err, "#declare %s_%d = %.*s; ", variable, index++,
+                               (int)(tokens[last].begin - tokens[i].end), file->source.data + tokens[i].end);
+    }
+    if (!result)
+        result = add_subscripts(writer, name, variable, &text, err);
+    if (!result)
+        result = buffer_add(&text, "", 1, err);
+    if (!result)
+        result = replace(writer, name + 1, end - 1, text.data, err);
+    buffer_free(&text);
+    return result;
+}
+
 /* A finish or texture that begins with a declared name takes over that one's state (pass_scene.c), which is kept in a
  * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows), by the macro; for an
  * element of an array it is in an array of the same size. */
 static enum result inherit_state(struct writer *writer, int token, const char *macro, struct error *err)
 {
+    static const char index[] = "povgloss_index";
     const struct scene_file *file = writer->file;
     int name = find_name(&writer->scene->names, file, token), end = after_subscripts(file, token + 1);
-    if (name < 0 || (end > token + 1 && find_name(&writer->scene->surface_arrays, file, token) < 0))
+    if (name < 0 || is_call(file, token) ||
+        (end > token + 1 && find_name(&writer->scene->surface_arrays, file, token) < 0))
         return RESULT_OK;
-    size_t begin = file->list.tokens[token].end, size = file->list.tokens[end - 1].end - begin;
-    enum result result = copy_to(writer, begin + size, err);
-    return result ? result
-                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d%.*s) %s(povgloss_of_%d%.*s) #end", name,
-                                  (int)size, file->source.data + begin, macro, name, (int)size,
-                                  file->source.data + begin);
+    struct buffer element = {0};
+    enum result result = hoist_subscripts(writer, token, token, index, err);
+    if (!result)
+        result = copy_to(writer, file->list.tokens[end - 1].end, err);
+    if (!result)
+        result = buffer_printf(&element, err, "povgloss_of_%d", name);
+    if (!result)
+        result = add_subscripts(writer, token, index, &element, err);
+    if (!result)
+        result = buffer_printf(&writer->out, err, " #ifdef (%.*s) %s(%.*s) #end", (int)element.size, element.data, macro,
+                               (int)element.size, element.data);
+    buffer_free(&element);
+    return result;
 }
+
+static const char *const object_words[] = {
+    "bicubic_patch", "blob",          "box",          "cone",            "cubic",         "cylinder", "difference",
+    "disc",          "height_field",  "intersection", "isosurface",      "julia_fractal", "lathe",    "merge",
+    "mesh",          "mesh2",         "object",       "parametric",      "plane",         "poly",     "polygon",
+    "prism",         "quadric",       "quartic",      "smooth_triangle", "sor",           "sphere",   "sphere_sweep",
+    "superellipsoid", "text",         "torus",        "triangle",        "union",         NULL};
 
 /* A pigment inside one of these is a pattern or a value, not what an object looks like. */
 static const char *const pattern_words[] = {"function", "pigment",  "pigment_map", "pigment_pattern", "normal",
@@ -287,50 +356,133 @@ static bool tracks(const struct writer *writer, int first, int last)
     return asked && may_be_clear(writer->file, first, last);
 }
 
-/* The last block `keyword { ... }` before `token` in the same braces, or -1. */
+/* The last block `keyword { ... }` before `token` in the same braces and macro that isn't declared, or -1. */
 static int sibling_before(const struct scene_file *file, int token, const char *keyword)
 {
     int parent = file->list.tokens[token].parent;
-    for (int i = token - 1; i > parent && i > 0; i--) {
+    if (is_mark(file, token - 1, "="))
+        return -1;
+    for (int i = token - 1; i > parent && i > 0 && !is_directive(file, i, "macro"); i--) {
         if (is_mark(file, i, "}") && file->list.tokens[i].match > 0)
             i = file->list.tokens[i].match - 1;
-        if (is_word(file, i, keyword) && opens_block(file, i))
+        if (is_word(file, i, keyword) && opens_block(file, i) && !is_mark(file, i - 1, "="))
             return i;
     }
     return -1;
 }
 
-/* The pigment before the block at `token` in the same braces whose transparency is tracked, or -1. */
+/* What a finish gets its transparency from: the last pigment, texture or material before it in the same braces, or -1. */
+static int surface_before(const struct writer *writer, int token)
+{
+    static const char *const words[] = {"pigment", "texture", "material"};
+    const struct scene_file *file = writer->file;
+    int last = -1;
+    if (writer->moved_pigment > token && file->list.tokens[writer->moved_pigment].parent == file->list.tokens[token].parent)
+        return writer->moved_pigment;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        int block = sibling_before(file, token, words[i]);
+        last = block > last ? block : last;
+    }
+    return last;
+}
+
+/* The same if its transparency is tracked, else -1. */
 static int covered_sibling(const struct writer *writer, int token)
 {
-    int pigment = sibling_before(writer->file, token, "pigment");
-    return pigment >= 0 && tracks(writer, pigment + 2, writer->file->list.tokens[pigment + 1].match) ? pigment : -1;
+    int block = surface_before(writer, token);
+    return block >= 0 && tracks(writer, block + 2, writer->file->list.tokens[block + 1].match) ? block : -1;
+}
+
+/* Whether a finish follows the block that ends at `last` in the same braces and macro. */
+static bool has_finish_after(const struct scene_file *file, int last)
+{
+    const struct token *tokens = file->list.tokens;
+    int parent = tokens[last].parent, end = parent >= 0 ? tokens[parent].match : file->list.count;
+    for (int i = last + 1; i < end && !is_directive(file, i, "macro"); i++) {
+        if (is_word(file, i, "finish") && is_mark(file, i + 1, "{"))
+            return true;
+        if (is_mark(file, i, "{") && tokens[i].match > i)
+            i = tokens[i].match;
+    }
+    return false;
+}
+
+static bool in_triangle(const struct scene_file *file, int token)
+{
+    int parent = file->list.tokens[token].parent;
+    return parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
+}
+
+/* What may stand between a finish and its pigment without touching either. */
+static const char *const moved_over_words[] = {"normal", "interior", "finish", NULL};
+
+static bool in_texture(const struct scene_file *file, int token)
+{
+    int parent = file->list.tokens[token].parent;
+    return parent > 0 && (is_word(file, parent - 1, "texture") || is_word(file, parent - 1, "interior_texture"));
+}
+
+static enum result add_cover(struct writer *writer, int token, int last, struct error *err)
+{
+    static const char *const uv[] = {"uv_mapping", NULL};
+    return buffer_printf(&writer->out, err, "; povgloss_cover_of_%s(%d) ", in_texture(writer->file, token) ? "texture" : "object",
+                         mentions(writer->file, token + 2, last, uv));
 }
 
 /* A pigment that may be transparent is declared first, so that POV-Ray can say where it is. */
 static enum result write_cover(struct writer *writer, int token, int last, struct error *err)
 {
-    static const char *const uv[] = {"uv_mapping", NULL};
-    int parent = writer->file->list.tokens[token].parent;
-    bool in_texture = parent > 0 && (is_word(writer->file, parent - 1, "texture") ||
-                                     is_word(writer->file, parent - 1, "interior_texture"));
+    if (token == writer->moved_pigment)
+        return replace(writer, token, last, "", err);
     enum result result = insert_before(writer, token, "#declare povgloss_cover = ", err);
     if (!result)
-        result = insert_after(writer, last, ";", err);
-    return result ? result
-                  : buffer_printf(&writer->out, err, " povgloss_cover_of_%s(%d) ", in_texture ? "texture" : "object",
-                                  mentions(writer->file, token + 2, last, uv));
+        result = insert_after(writer, last, "", err);
+    if (!result)
+        result = add_cover(writer, token, last, err);
+    if (result || in_texture(writer->file, token) || !writer->rules->marks || has_finish_after(writer->file, last))
+        return result;
+    return buffer_add_text(&writer->out,
+                           writer->rules->covers ? "povgloss_count(povgloss_own) povgloss_hide(povgloss_own) "
+                                                 : "povgloss_count(povgloss_own) ",
+                           err);
+}
+
+/* Such a pigment after the finish `finish {...} pigment {...}` at `token` is written before it. */
+static enum result move_cover(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int pigment = last + 1;
+    while (in_list(file, pigment, moved_over_words) && opens_block(file, pigment))
+        pigment = file->list.tokens[pigment + 1].match + 1;
+    if (!is_word(file, pigment, "pigment") || !opens_block(file, pigment) || covered_sibling(writer, token) >= 0)
+        return RESULT_OK;
+    int end = file->list.tokens[pigment + 1].match;
+    if (!tracks(writer, pigment + 2, end) || has_effects(writer, pigment, end) || in_triangle(file, pigment))
+        return RESULT_OK;
+    writer->moved_pigment = pigment;
+    enum result result = insert_before(writer, token, "#declare povgloss_cover =", err);
+    for (int i = pigment; !result && i <= end; i++)
+        result = buffer_printf(&writer->out, err, " %.*s", (int)(file->list.tokens[i].end - file->list.tokens[i].begin),
+                               file->source.data + file->list.tokens[i].begin);
+    return result ? result : add_cover(writer, pigment, end, err);
 }
 
 static enum result begin_finish(struct writer *writer, int token, struct error *err)
 {
-    int brace = writer->file->list.tokens[token].parent, cover = covered_sibling(writer, token);
-    bool in_texture = brace > 0 && is_word(writer->file, brace - 1, "texture");
+    const struct scene_file *file = writer->file;
+    int brace = file->list.tokens[token].parent, surface = surface_before(writer, token);
+    bool of_texture = brace > 0 && is_word(file, brace - 1, "texture");
+    bool own = surface >= 0 && is_word(file, surface, "pigment") && covered_sibling(writer, token) >= 0;
     enum result result = insert_after(writer, token + 1,
-                                      in_texture   ? " povgloss_begin(povgloss_texture) "
-                                      : cover >= 0 ? " povgloss_begin(povgloss_own) "
-                                                   : " povgloss_begin(povgloss_none) ",
+                                      of_texture                                          ? " povgloss_begin(povgloss_texture) "
+                                      : own                                               ? " povgloss_begin(povgloss_own) "
+                                      : surface >= 0 && !is_word(file, surface, "pigment") ? " povgloss_begin(povgloss_last) "
+                                                                                          : " povgloss_begin(povgloss_default_state) ",
                                       err);
+    bool value = is_mark(file, token - 1, "=");
+    if (!result && value && find_name(&writer->scene->names, file, token + 2) < 0 &&
+        find_name(&writer->scene->parameters, file, token + 2) < 0)
+        result = buffer_add_text(&writer->out, "povgloss_of_default() ", err);
     if (!result)
         result = inherit_state(writer, token + 2, "povgloss_of_finish", err);
     /* An element of a filled array comes unmarked. */
@@ -342,8 +494,10 @@ static enum result begin_finish(struct writer *writer, int token, struct error *
 /* A finish that is declared by a name leaves automatic gloss to the textures and objects that use it. */
 static enum result write_finish(struct writer *writer, int token, int last, bool named, struct error *err)
 {
-    enum result result = begin_finish(writer, token, err);
+    enum result result = move_cover(writer, token, last, err);
     int cover = covered_sibling(writer, token);
+    if (!result)
+        result = begin_finish(writer, token, err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
@@ -391,6 +545,8 @@ static enum result write_texture(struct writer *writer, int token, int last, boo
     return result;
 }
 
+static const char declared_element[] = "povgloss_element";
+
 /* After `#declare X = finish {...}` or the last layer of `#declare X = texture {...}`: remembers the state of X. */
 static enum result remember(struct writer *writer, int name_token, int last, struct error *err)
 {
@@ -401,12 +557,14 @@ static enum result remember(struct writer *writer, int name_token, int last, str
     if (name < 0 || is_word(file, last + 1, "texture") ||
         (element && find_name(&writer->scene->surface_arrays, file, name_token) < 0))
         return RESULT_OK;
-    size_t begin = file->list.tokens[name_token].end, size = file->list.tokens[subscripts - 1].end - begin;
     const char *declare = is_directive(file, name_token - 1, "local") ? "#local" : "#declare";
     enum result result = copy_to(writer, file->list.tokens[end].end, err);
     if (!result)
-        result = buffer_printf(&writer->out, err, " %s povgloss_of_%d%.*s = povgloss_last; ", declare, name, (int)size,
-                               file->source.data + begin);
+        result = buffer_printf(&writer->out, err, " %s povgloss_of_%d", declare, name);
+    if (!result)
+        result = add_subscripts(writer, name_token, declared_element, &writer->out, err);
+    if (!result)
+        result = buffer_add_text(&writer->out, " = povgloss_last; ", err);
     if (!result && writer->rules->coded && !element)
         result = buffer_printf(&writer->out, err,
                                " #ifdef (povgloss_interior) %s povgloss_interior_of_%d = interior { povgloss_interior } "
@@ -464,6 +622,91 @@ static enum result copy_state(struct writer *writer, int directive, struct error
     return result ? result
                   : buffer_printf(&writer->out, err, " #ifdef (povgloss_of_%d) %s povgloss_of_%d = povgloss_of_%d; #end ", from,
                                   is_directive(file, directive, "local") ? "#local" : "#declare", to, from);
+}
+
+/* `#macro M(F, X)`: a macro with such a parameter among the surfaces takes the state of each besides, as `#macro M(F, X,
+ * povgloss_of_N, povgloss_unused_1)`. */
+static enum result take_states(struct writer *writer, int directive, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int macro = directive + 1, position = 0;
+    if (!is_directive(file, directive, "macro") || find_name(&writer->scene->surface_macros, file, macro) < 0)
+        return RESULT_OK;
+    int last = file->list.tokens[macro + 1].match;
+    enum result result = insert_before(writer, last, "", err);
+    for (int i = macro + 2; !result && i < last; i = argument_end(file, i, last) + 1, position++) {
+        int name = find_name(&writer->scene->surfaces, file, i) < 0 ? -1 : find_name(&writer->scene->names, file, i);
+        result = buffer_printf(&writer->out, err, name >= 0 ? ", povgloss_of_%d" : ", povgloss_unused_%d",
+                               name >= 0 ? name : position);
+    }
+    return result;
+}
+
+/* `M(F, 9)`, at M: gives the states. Of the arguments that are written out it is that of the last one. */
+static enum result give_states(struct writer *writer, int token, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    if (find_name(&writer->scene->surface_macros, file, token) < 0 || !is_call(file, token))
+        return RESULT_OK;
+    int last = file->list.tokens[token + 1].match;
+    struct buffer states = {0};
+    enum result result = write_tokens(writer, token + 2, last, err);
+    for (int i = token + 2, end; !result && i < last; i = end + 1) {
+        end = argument_end(file, i, last);
+        int name = find_name(&writer->scene->surfaces, file, i) < 0 ? -1 : find_name(&writer->scene->names, file, i);
+        bool element = end > i + 1;
+        if (in_list(file, i, glossy_words) && opens_block(file, i) && argument_end(file, end + 1, last) >= last)
+            result = buffer_add_text(&states, ", povgloss_last*1", err);
+        else if (name < 0 || after_subscripts(file, i + 1) != end || has_effects(writer, i, end - 1) ||
+                 (element && find_name(&writer->scene->surface_arrays, file, i) < 0))
+            result = buffer_add_text(&states, ", povgloss_none", err);
+        else
+            result = buffer_printf(&states, err, ", povgloss_of_%d%.*s", name,
+                                   (int)(file->list.tokens[end - 1].end - file->list.tokens[i].end),
+                                   file->source.data + file->list.tokens[i].end);
+    }
+    if (!result)
+        result = insert_before(writer, last, "", err);
+    if (!result)
+        result = buffer_add(&writer->out, states.data, states.size, err);
+    buffer_free(&states);
+    *next = last;
+    return result;
+}
+
+/* Whether a macro of the name at `token` writes an object itself. */
+static bool makes_object(const struct scene *scene, const struct scene_file *from, int token)
+{
+    const struct token *name = &from->list.tokens[token];
+    for (int i = 0; i < scene->file_count; i++) {
+        const struct scene_file *file = &scene->files[i];
+        for (int macro = 1; macro < file->list.count; macro++)
+            if (is_directive(file, macro - 1, "macro") && is_same_word(file, macro, from, name) &&
+                mentions(file, macro, end_of_macro(file, macro - 1), object_words))
+                return true;
+    }
+    return false;
+}
+
+/* `#declare T = Made()`, where textures, finishes or materials begin with T. */
+static enum result declare_made(struct writer *writer, int directive, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    int name = declared_name(file, directive), value = name < 0 ? -1 : after_subscripts(file, name + 1) + 1;
+    if (name < 0 || !is_mark(file, value - 1, "=") || find_name(&writer->scene->surfaces, file, name) < 0 ||
+        find_name(&writer->scene->names, file, value) < 0 || !is_call(file, value) ||
+        makes_object(writer->scene, file, value))
+        return RESULT_OK;
+    int last = file->list.tokens[value + 1].match;
+    enum result result = insert_before(
+        writer, directive, "#declare povgloss_last = povgloss_none; #declare povgloss_value = povgloss_value + 1; ", err);
+    if (!result)
+        result = write_tokens(writer, value, last + 1, err);
+    if (!result)
+        result = insert_after(writer, last + is_mark(file, last + 1, ";"), " #declare povgloss_value = povgloss_value - 1; ",
+                              err);
+    *next = last + 1 + is_mark(file, last + 1, ";");
+    return result ? result : remember(writer, name, last, err);
 }
 
 /* A material in a copy without textures: its interior is kept for the object, which may be clear. */
@@ -535,30 +778,91 @@ static enum result write_material(struct writer *writer, int token, int last, st
     return result ? result : write_tokens(writer, token + 2, last, err);
 }
 
-static const char *const object_words[] = {
-    "bicubic_patch", "blob",          "box",          "cone",            "cubic",         "cylinder", "difference",
-    "disc",          "height_field",  "intersection", "isosurface",      "julia_fractal", "lathe",    "merge",
-    "mesh",          "mesh2",         "object",       "parametric",      "plane",         "poly",     "polygon",
-    "prism",         "quadric",       "quartic",      "smooth_triangle", "sor",           "sphere",   "sphere_sweep",
-    "superellipsoid", "text",         "torus",        "triangle",        "union",         NULL};
-
-/* `object { X` at its keyword counts the textures of X. */
+/* `object { X` at its keyword counts the textures of X, or notes that they aren't known. */
 static enum result add_part_counts(struct writer *writer, int token, struct error *err)
 {
-    int part = is_word(writer->file, token, "object") ? find_name(&writer->scene->names, writer->file, token + 2) : -1;
-    if (part < 0 || is_mark(writer->file, token + 3, "(") || is_mark(writer->file, token + 3, "["))
+    const struct scene_file *file = writer->file;
+    int name = token + 2, part = find_name(&writer->scene->names, file, name);
+    if (!is_word(file, token, "object") || opens_block(file, name) || is_mark(file, name + 1, "(") ||
+        file->list.tokens[name].kind != TOKEN_WORD)
         return RESULT_OK;
-    enum result result = insert_after(writer, token + 2, "", err);
-    return result ? result
-                  : buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #end ",
-                                  part, part);
+    bool known = part >= 0 && !is_mark(file, name + 1, "[");
+    enum result result = known ? insert_after(writer, name, "", err) : insert_before(writer, name, "", err);
+    if (!result && known)
+        result = buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #else ", part,
+                               part);
+    if (!result)
+        result = buffer_add_text(&writer->out, "povgloss_add(<0, 0, 1>) ", err);
+    return result || !known ? result : buffer_add_text(&writer->out, "#end ", err);
 }
 
-/* An object with its textures counted: one of the top level, which may be transparent, is declared and then placed, a declared
- * one, which may be glossy, keeps its counts beside its name (`name`, else -1). */
+/* Whether all that the union at `brace` holds is blocks of objects, which have their own surfaces. */
+static bool holds_objects_only(const struct writer *writer, int brace)
+{
+    static const char *const unknown[] = {"include", "macro", "default", NULL};
+    const struct scene_file *file = writer->file;
+    int last = file->list.tokens[brace].match, i = brace + 1;
+    while (i < last) {
+        if (file->list.tokens[i].kind == TOKEN_DIRECTIVE) {
+            for (int word = 0; unknown[word]; word++)
+                if (is_directive(file, i, unknown[word]))
+                    return false;
+            i = directive_end(file, i, last);
+        } else if (opens_block(file, i)) {
+            int end = file->list.tokens[i + 1].match;
+            if (in_list(file, i, texture_words) || file->list.tokens[end].match != i + 1)
+                return false;
+            i = end + 1;
+        } else if (is_mark(file, i + 1, "(") && find_name(&writer->scene->names, file, i) >= 0)
+            return false;
+        else
+            i++;
+    }
+    return true;
+}
+
+/* Whether the object between these tokens may be transparent. */
+static bool may_be_placed(const struct writer *writer, int first, int last)
+{
+    return writer->scene->clear_default || tracks(writer, first, last);
+}
+
+/* Whether the objects in these braces are placed one by one: those of a union of the top level, or in such a union, that may
+ * hold something transparent. */
+static bool splits(struct writer *writer, int brace)
+{
+    const struct scene_file *file = writer->file;
+    if (brace == writer->asked_union)
+        return writer->asked_splits;
+    if (brace <= 0 || !is_word(file, brace - 1, "union") || writer->in_macro || file->list.tokens[brace].match < 0 ||
+        is_mark(file, brace - 2, "=") || is_mark(file, brace - 2, "(") || is_mark(file, brace - 2, ","))
+        return false;
+    int last = file->list.tokens[brace].match, parent = file->list.tokens[brace].parent;
+    bool found = file->list.tokens[last].match == brace && may_be_placed(writer, brace + 1, last) &&
+                 holds_objects_only(writer, brace) && (parent < 0 || splits(writer, parent));
+    writer->asked_union = brace;
+    return writer->asked_splits = found;
+}
+
+/* A union whose objects are placed one by one is itself in both copies. */
+static enum result write_split(struct writer *writer, int token, int last, struct error *err)
+{
+    bool top = writer->file->list.tokens[token].parent < 0;
+    enum result result = insert_before(writer, token, top ? "povgloss_leave_copy() " : "", err);
+    if (!result)
+        result = insert_after(writer, token + 1, " povgloss_nothing() ", err);
+    if (!result)
+        result = write_tokens(writer, token + 2, last, err);
+    return result ? result : insert_after(writer, last, top ? " povgloss_enter_copy() " : "", err);
+}
+
+/* An object with its textures counted: one of the top level, which may be transparent, is declared and then placed, as is one
+ * of a union that is split; a declared one, which may be glossy, keeps its counts beside its name (`name`, else -1). */
 static enum result write_object(struct writer *writer, int token, int last, int name, struct error *err)
 {
     const struct scene_file *file = writer->file;
+    static const char *const unions[] = {"union", NULL};
+    bool part = splits(writer, file->list.tokens[token].parent);
     int index = find_name(&writer->scene->names, file, name);
     enum result result = name >= 0 ? RESULT_OK : insert_before(writer, token, "#declare povgloss_object = ", err);
     if (!result)
@@ -570,12 +874,17 @@ static enum result write_object(struct writer *writer, int token, int last, int 
         result = buffer_printf(&writer->out, err, "#declare povgloss_before_%d = povgloss_counts; ", index);
     if (!result)
         result = add_part_counts(writer, token, err);
+    /* Parts without a texture show the default. */
+    if (!result && mentions(file, token, last, unions))
+        result = buffer_add_text(&writer->out, " povgloss_count(povgloss_default_state) ", err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
         result = insert_after(writer, last, " ", err);
     if (result || name < 0)
-        return result ? result : buffer_add_text(&writer->out, "povgloss_place() ", err);
+        return result ? result
+                      : buffer_printf(&writer->out, err, "povgloss_place%s(%d, %d) ", part ? "_part" : "",
+                                      (int)(file - writer->scene->files), file->list.tokens[token].line);
     return buffer_printf(&writer->out, err,
                          "povgloss_leave() #declare povgloss_holds_%d = povgloss_counts - povgloss_before_%d; ", index,
                          index);
@@ -612,7 +921,7 @@ static enum result write_marked(struct writer *writer, int token, int last, int 
     }
     bool finish = is_word(file, token, "finish"), material = is_word(file, token, "material");
     if (!result)
-        result = finish     ? write_finish(writer, token, last, keeps_state(writer, name), err)
+        result = finish     ? write_finish(writer, token, last, writer->in_default || keeps_state(writer, name), err)
                  : material ? write_material(writer, token, last, err)
                             : write_texture(writer, token, last, is_layer(file, token), err);
     if (!result && choice) {
@@ -655,12 +964,6 @@ static enum result write_declared_layers(struct writer *writer, int token, int *
     return result ? result : remember(writer, writer->value_name, last, err);
 }
 
-static bool in_triangle(const struct scene_file *file, int token)
-{
-    int parent = file->list.tokens[token].parent;
-    return parent > 0 && (is_word(file, parent - 1, "triangle") || is_word(file, parent - 1, "smooth_triangle"));
-}
-
 /* Whether all layers of the texture whose first layer is at `token` may be transparent. */
 static bool layers_may_be_clear(const struct writer *writer, int token)
 {
@@ -684,6 +987,54 @@ static enum result write_coded_value(struct writer *writer, int token, int last,
     enum result result = texture ? write_texture(writer, token, last, is_layer(file, token), err)
                                  : write_coded_material(writer, token, last, err);
     return result || name < 0 ? result : remember(writer, name, last, err);
+}
+
+/* Whether every condition and macro that begins or ends between two tokens does both. */
+static bool nests_evenly(const struct scene_file *file, int first, int last)
+{
+    int depth = 0;
+    for (int i = first; i <= last && depth >= 0; i++)
+        depth += opens_nesting(file, i) - is_directive(file, i, "end");
+    return depth == 0;
+}
+
+/* Appends the tokens of a source without its comments and lines. */
+static enum result add_in_one_line(struct buffer *text, const struct buffer *source, struct error *err)
+{
+    struct token_list list = {0};
+    enum result result = scene_lex("", source, &list, err);
+    for (int i = 0; !result && i < list.count - 1; i++) {
+        result = buffer_add(text, source->data + list.tokens[i].begin, list.tokens[i].end - list.tokens[i].begin, err);
+        if (!result)
+            result = buffer_add_text(text, " ", err);
+    }
+    token_list_free(&list);
+    return result;
+}
+
+static enum result write_coded(struct writer *writer, int token, int last, int *next, struct error *err);
+
+/* Outside braces a macro may give its caller a value, or an object its textures: povgloss_value tells. */
+static enum result write_coded_result(struct writer *writer, int token, int last, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    struct writer value = *writer;
+    value.out = (struct buffer){0};
+    value.at = file->list.tokens[token].begin;
+    enum result result = write_coded_value(&value, token, last, -1, err);
+    if (!result)
+        result = copy_to(&value, file->list.tokens[last].end, err);
+    if (!result)
+        result = insert_before(writer, token, "#if (povgloss_value > 0) ", err);
+    if (!result)
+        result = add_in_one_line(&writer->out, &value.out, err);
+    buffer_free(&value.out);
+    if (!result)
+        result = buffer_add_text(&writer->out, "#else ", err);
+    *next = last + 1;
+    if (!result)
+        result = write_coded(writer, token, last, next, err);
+    return result ? result : insert_after(writer, *next - 1, " #end ", err);
 }
 
 /* In an object they go. One that may be clear is declared in front of it, so that POV-Ray decides. */
@@ -820,13 +1171,18 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     }
     bool named = value && find_name(&writer->scene->names, file, writer->value_name) >= 0 &&
                  !is_mark(file, writer->value_name + 1, "[");
-    bool placed = !value && file->list.tokens[token].parent < 0 && !argument && tracks(writer, token + 2, last);
+    bool placed = !value && file->list.tokens[token].parent < 0 && !argument && may_be_placed(writer, token + 2, last);
+    if (rules->places && !value && splits(writer, brace))
+        return write_split(writer, token, last, err);
+    placed |= !value && splits(writer, file->list.tokens[token].parent);
     if (rules->places && (named || placed) && in_list(file, token, object_words))
         return write_object(writer, token, last, named ? writer->value_name : -1, err);
     bool filling = fills_array(file, token), pattern = inside_any(file, token, pattern_words);
     bool pigment = is_word(file, token, "pigment") && !pattern;
     if (rules->covers && is_word(file, token, "interior"))
         return write_interior(writer, token, last, err);
+    if (rules->covers && rules->marks && is_word(file, token, "subsurface") && is_word(file, token + 2, "translucency"))
+        return write_subsurface(writer, token, last, err);
     if (rules->marks && last >= writer->end) {
         *next = 0;
         return is_word(file, token, "finish")    ? begin_finish(writer, token, err)
@@ -849,6 +1205,9 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         return write_texture_list(writer, token, last, err);
     if (rules->coded && is_word(file, token, "face_indices"))
         return write_faces(writer, token, last, err);
+    if (rules->coded && in_list(file, token, texture_words) && writer->in_macro && file->list.tokens[token].parent < 0 &&
+        !value && !argument && nests_evenly(file, token, last))
+        return write_coded_result(writer, token, last, next, err);
     if (rules->coded && in_list(file, token, texture_words))
         return value || argument || filling || pattern || inside_any(file, token, surface_words)
                    ? write_coded_value(writer, token, last, value ? writer->value_name : -1, err)
@@ -938,7 +1297,7 @@ static enum result write_include(struct writer *writer, int token, struct error 
 }
 
 /* Objects without a texture take the default when they are finished, at the end of the union: it ends before the default
- * changes. In a copy without textures it matters for none. */
+ * changes. In a copy without textures it would be seen in the codes, and is taken back. */
 static enum result write_default(struct writer *writer, int token, int *next, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -946,10 +1305,21 @@ static enum result write_default(struct writer *writer, int token, int *next, st
     *next = last + 1;
     bool breaks = writer->rules->statements != STATEMENTS_STAY && file->list.tokens[token].parent < 0 && !writer->in_macro;
     enum result result = insert_before(writer, token, breaks ? "povgloss_modifiers() } " : "", err);
+    if (!result && writer->rules->marks)
+        result = buffer_add_text(&writer->out, "povgloss_enter_default() ", err);
+    if (!result && writer->rules->places)
+        result = buffer_add_text(&writer->out, "#declare povgloss_before_default = povgloss_counts; ", err);
     if (!result && file->list.tokens[token].kind == TOKEN_WORD) /* the old form, which is a statement */
         result = buffer_add_text(&writer->out, "#", err);
-    if (!result && !writer->rules->coded)
-        result = write_tokens(writer, token + 1, last, err);
+    writer->in_default = true;
+    if (!result)
+        result = writer->rules->coded ? insert_after(writer, last, " #default { texture { povgloss_default } }", err)
+                                      : write_tokens(writer, token + 1, last, err);
+    writer->in_default = false;
+    if (!result && writer->rules->places)
+        result = insert_after(writer, last, " povgloss_counted_default() ", err);
+    if (!result && writer->rules->marks)
+        result = insert_after(writer, last, " povgloss_leave_default() ", err);
     return result || !breaks ? result : insert_after(writer, last, " union { povgloss_nothing()", err);
 }
 
@@ -982,6 +1352,13 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
                 result = copy_state(writer, i, err);
             if (!result && (writer->rules->marks || writer->rules->coded))
                 result = declare_states(writer, i, &next, err);
+            if (!result && writer->rules->marks)
+                result = take_states(writer, i, err);
+            if (!result && (writer->rules->marks || writer->rules->coded) && declared_name(file, i) > 0 &&
+                find_name(&writer->scene->surface_arrays, file, declared_name(file, i)) >= 0)
+                result = hoist_subscripts(writer, i, declared_name(file, i), declared_element, err);
+            if (!result && (writer->rules->marks || writer->rules->coded))
+                result = declare_made(writer, i, &next, err);
             if (!result && is_directive(file, i, "include"))
                 result = write_include(writer, i + 1, err);
             else if (!result && is_directive(file, i, "fopen") && writer->rules->discovery)
@@ -998,6 +1375,8 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
                                       " #error \"povgloss: this block isn't closed in the same file: close its brace "
                                       "there\\n\" ",
                                       err);
+            if (!result && !next && writer->rules->marks)
+                result = give_states(writer, i, &next, err);
             if (!result && !next && writer->rules->marks && !fills_array(file, i))
                 result = write_finish_item(writer, i, &next, err);
         }
@@ -1036,7 +1415,8 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
         const struct scene_file *file = &scene->files[i];
         struct writer writer = {
             .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy,
-            .value_end = -1, .end = file->list.count, .object_end = -1};
+            .value_end = -1, .end = file->list.count, .object_end = -1, .moved_pigment = -1,
+            .asked_union = -1};
         /* POV-Ray takes a byte order mark in a scene but not in an include file, which every copy is. */
         if (file->source.size >= 3 && !memcmp(file->source.data, "\xEF\xBB\xBF", 3))
             writer.at = 3;
@@ -1054,6 +1434,16 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
         free(path);
         buffer_free(&writer.out);
     }
+    return result;
+}
+
+enum result scene_declare_states(const struct scene *scene, struct buffer *text, struct error *err)
+{
+    enum result result = RESULT_OK;
+    const char *name = scene->names.data, *end = name + scene->names.size;
+    for (int i = 0; !result && name < end; name += strlen(name) + 1, i++)
+        if (list_has(&scene->surfaces, name) && !list_has(&scene->surface_arrays, name))
+            result = buffer_printf(text, err, "#declare povgloss_of_%d = povgloss_none;\n", i);
     return result;
 }
 

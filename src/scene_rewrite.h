@@ -35,6 +35,9 @@ MUST_CHECK enum result scene_copy_name(const struct scene *scene, enum scene_cop
 /* The index of the user's file behind a name of scene_copy_name, or -1. */
 int scene_file_of_copy(const struct scene *scene, const char *name);
 
+/* Declares the states that the copies give to macros, as povgloss_none. */
+MUST_CHECK enum result scene_declare_states(const struct scene *scene, struct buffer *text, struct error *err);
+
 /* Statements that go before the first and between the two copies of a scene in one wrapper: names that the first one
  * declared are undefined, names that came from the command line keep their values. */
 MUST_CHECK enum result scene_save_names(const struct scene *scene, struct buffer *text, struct error *err);

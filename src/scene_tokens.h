@@ -109,6 +109,18 @@ static inline int after_subscripts(const struct scene_file *file, int token)
     return token;
 }
 
+/* The ] of the subscript that begins at `token`. */
+static inline int subscript_end(const struct scene_file *file, int token)
+{
+    for (int depth = 0; token < file->list.count - 1; token++) {
+        depth += is_mark(file, token, "[");
+        depth -= is_mark(file, token, "]");
+        if (depth == 0)
+            break;
+    }
+    return token;
+}
+
 /* The name before the subscripts that end at `token`, or `token` itself where there are none. */
 static inline int before_subscripts(const struct scene_file *file, int token)
 {
@@ -265,6 +277,33 @@ static inline int directive_end(const struct scene_file *file, int token, int en
     return after < end ? after : end;
 }
 
+static inline bool is_same_word(const struct scene_file *file, int token, const struct scene_file *other,
+                                const struct token *word)
+{
+    const struct token *own = &file->list.tokens[token];
+    return own->kind == TOKEN_WORD && own->word_length == word->word_length &&
+           !memcmp(file->source.data + own->word, other->source.data + word->word, word->word_length);
+}
+
+/* Whether the name at `token` is called as a macro is. */
+static inline bool is_call(const struct scene_file *file, int token)
+{
+    return is_mark(file, token + 1, "(") && file->list.tokens[token + 1].match > 0 && !is_directive(file, token - 1, "macro");
+}
+
+/* The comma after the argument of a macro that begins at `token`, or `last`, the parenthesis at their end. */
+static inline int argument_end(const struct scene_file *file, int token, int last)
+{
+    for (int depth = 0; token < last && (depth > 0 || !is_mark(file, token, ",")); token++) {
+        bool compares = token > 0 && (file->list.tokens[token - 1].kind == TOKEN_NUMBER || is_mark(file, token - 1, ")"));
+        depth += is_mark(file, token, "<") && !compares;
+        depth -= is_mark(file, token, ">") && depth > 0;
+        if (file->list.tokens[token].match > token)
+            token = file->list.tokens[token].match;
+    }
+    return token;
+}
+
 /* Whether one of the tokens may be transparent. */
 static inline bool may_be_clear(const struct scene_file *file, int first, int last)
 {
@@ -283,6 +322,14 @@ static inline int find_name(const struct buffer *names, const struct scene_file 
         if (strlen(names->data + at) == length && !memcmp(names->data + at, word, length))
             return index;
     return -1;
+}
+
+static inline bool list_has(const struct buffer *names, const char *name)
+{
+    for (size_t at = 0; at < names->size; at += strlen(names->data + at) + 1)
+        if (!strcmp(names->data + at, name))
+            return true;
+    return false;
 }
 
 static inline enum result add_name(struct buffer *names, const struct scene_file *file, int token, struct error *err)

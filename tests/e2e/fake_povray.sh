@@ -27,7 +27,7 @@ SH
     } > fake/povray
     chmod +x fake/povray
     printf 'an older picture\n' > output/picture.png
-    run env "PATH=$scratch/fake:$PATH" timeout 60 "$bin/povgloss" render scene.pov "+L$root/povscenes" --quiet \
+    run env "PATH=$scratch/fake:$PATH" timeout 60 "$bin/povgloss" render scene.pov "+L$root/povscenes" \
         -o output/picture.png "$@"
 }
 
@@ -46,12 +46,11 @@ works() {
     draw "$@"
     expect_status 0 && expect_nothing_left && oiiotool output/picture.png -o copy.png
 }
-# warns_of_version TEXT: in the one warning that there is; "": there isn't a word of it.
+# warns_of_version TEXT: "": there isn't a word of it.
 warns_of_version() {
-    works && [ ! -s "$scratch/err" ] || return 1
-    "$bin/povgloss" render scene.pov "+L$root/povscenes" --povray fake/povray -o output/picture.png 2> warnings
-    if [ -n "$1" ]; then grep -qF "$1" warnings; else ! grep -qF 'this is POV-Ray' warnings; fi ||
-        { cat warnings; return 1; }
+    works || return 1
+    if [ -n "$1" ]; then grep -qF "$1" "$scratch/err"; else ! grep -qF 'this is POV-Ray' "$scratch/err"; fi ||
+        { show_run; return 1; }
 }
 check "images of the right kind: the fake is good enough" works <<< 'good'
 check "exit status 1 with a message" fails 4 "Parse Error: Hello" << 'SH'
@@ -83,6 +82,18 @@ SH
 check "a text in place of a PNG" fails 3 "direction/image.png: not a PNG" << 'SH'
 good
 [ "$folder" != direction ] || cp "$here/text.png" image.png
+SH
+check "an error in POV-Ray's own picture names the user's line" fails 4 "File 'scene.pov' line 2: Parse Error" << 'SH'
+good
+[ "$folder" != own ] || { echo "File 'pass.pov' line 2: Parse Error: Hello" >&2; exit 1; }
+SH
+check "an error in a file from a library folder names the user's file" fails 4 "File 'a.inc' line 2: Parse Error" << 'SH'
+good
+[ "$folder" != own ] || { echo "File '../lib0/a.inc' line 2: Parse Error: Hello" >&2; exit 1; }
+SH
+check "POV-Ray's own picture ends early" fails 3 "own/image.exr: " << 'SH'
+good
+[ "$folder" != own ] || cp "$here/cut.exr" image.exr
 SH
 for pass in base specular reflectance position position-low endpoint endpoint-low; do
     check "an image of another size in the $pass pass" fails 3 "9" << SH

@@ -6,6 +6,7 @@
 
 size=(+W120 +H90 -A -D)
 at_once=4
+gloss=() # options for povgloss, for the scenes that follow
 names=()
 folder=$scratch/scenes
 mkdir "$folder"
@@ -38,7 +39,8 @@ judge() {
     povray "$file.pov" "+L$folder" "+L$root/povscenes" "${size[@]}" +FE "+O$file-truth.exr" > "$file.log" 2>&1 ||
         { sed -n '/rror/,$p' "$file.log"; fail "povray itself fails"; return; }
     cd "$file-passes" || return
-    "$bin/povgloss" passes "$file.pov" "+L$root/povscenes" "${size[@]}" --quiet -o "$file-passes.exr" 2>&1 || return
+    "$bin/povgloss" passes "$file.pov" "+L$root/povscenes" "${size[@]}" "${gloss[@]}" --quiet \
+        -o "$file-passes.exr" 2>&1 || return
     "$bin/glossfilter" "$file-passes.exr" --phong inf -o "$file-mirror.exr" 2>&1 || return
     "$bin/glossfilter" "$file-passes.exr" --phong 20 -o "$file-glossy.exr" 2>&1 || return
     idiff -fail 0.01 -failpercent 0.1 -warn 0.01 -warnpercent 0.1 "$file-truth.exr" "$file-mirror.exr" > "$file.diff" ||

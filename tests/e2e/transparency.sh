@@ -55,4 +55,89 @@ scene "clear pane before a glossy ball" << 'POV'
 box { <-0.5, 1, -3>, <0.5, 2, -2.9> pigment { rgbf <0.9, 1, 0.9, 0.9> } }
 object { Ball pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
 POV
+scene "fog before a floor, a ball, and a ball behind a pane" << 'POV'
+fog { distance 12 rgb <0.6, 0.7, 0.9> }
+fog { fog_type 2 distance 3 fog_offset 0.3 fog_alt 0.3 rgb <0.9, 0.8, 0.6> turbulence 0.3 }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
+object { Ball pigment { rgb <0.5, 0.2, 0.1> } finish { reflection 0.5 Gloss(50) } }
+sphere { <1.6, 0.8, -1.6>, 0.5 pigment { rgbt 0.9 } finish { reflection 0.1 } interior { ior 1.3 } hollow }
+box { <-2, 0.2, -1.5>, <-1, 1.5, -1.4> pigment { rgbt <0.8, 1, 0.8, 0.7> } }
+POV
+whole_scene "fog in a space that isn't linear" << 'POV'
+#version 3.7;
+global_settings { assumed_gamma 2.2 }
+#include "stage.inc"
+fog { distance 12 rgb <0.6, 0.7, 0.9> }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
+POV
+scene "a rainbow before a floor" << 'POV'
+rainbow {
+  angle 30 width 30 distance 3 direction <-0.2, -0.2, 1>
+  color_map { [0 rgbt <0.9, 0.1, 0.2, 0.6>] [1 rgbt <0.1, 0.3, 0.9, 0.6>] }
+}
+object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
+POV
+scene "media before a floor and a ball" << 'POV'
+media { absorption <0.1, 0.06, 0.03> emission <0.02, 0.03, 0.05> method 3 intervals 1 samples 30 jitter 0 }
+sphere { 0, 30 hollow pigment { rgb 0.5 } }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
+object { Ball pigment { rgb <0.5, 0.2, 0.1> } finish { reflection 0.5 Gloss(50) } }
+POV
+
+# Light under surfaces is random: only its average tells it from what is missing without it.
+cat > "$folder/under.pov" << 'POV'
+#version 3.7;
+global_settings { assumed_gamma 1.0 mm_per_unit 40 subsurface { samples 40, 10 } }
+#include "stage.inc"
+object { Floor pigment { rgb 0.8 } finish { reflection 0.1 subsurface { translucency <0.4, 0.3, 0.2> } } interior { ior 1.4 } }
+object { Ball scale 0.7 pigment { rgb <0.8, 0.7, 0.5> } finish { subsurface { translucency <5, 3, 1> } } interior { ior 1.4 } }
+object { Ball scale 0.7 translate x*1.6 pigment { rgb <0.2, 0.1, 0.1> } finish { reflection 0.6 Gloss(50) } }
+POV
+under_surfaces() {
+    local file=$folder/under
+    judge "$file"
+    awk "BEGIN { exit !($(rmse "$file-truth.exr" "$file-mirror.exr") < 0.03) }"
+}
+check "light under surfaces beside a glossy ball" under_surfaces
+scene "a union of glass, glossy and dull things" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.2 } }
+union {
+  sphere { <-1, 0.9, 0>, 0.8 pigment { rgbf <0.9, 1, 0.9, 0.9> } finish { reflection 0.2 } interior { ior 1.5 } }
+  union {
+    sphere { <0.3, 0.4, -0.5>, 0.4 pigment { rgb <0.5, 0.2, 0.1> } finish { reflection 0.5 Gloss(50) } }
+    #for (I, 0, 2)
+      sphere { <1.5, 0.3 + I*0.6, 0>, 0.3 pigment { rgbt I/2 } finish { reflection 0.3 #if (I = 0) Gloss(50) #end }
+        interior { ior 1.3 } }
+    #end
+  }
+  box { <-2, 0, 0.8>, <-0.4, 0.5, 1> pigment { rgb y } }
+  object { Ball scale 0.4 translate <0.9, 0, 0.4> pigment { rgb 0.2 } finish { reflection 0.5 Gloss(50) } }
+  rotate y*20
+}
+POV
+gloss=(--gloss all=300)
+scene "glass without a name, its finish before its pigment" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 } }
+sphere {
+  <-1, 0.9, -1>, 0.8
+  texture { finish { reflection 0.3 } normal { bumps 0.01 } pigment { rgbt <0.9, 0.5, 0.5, 0.9> } } interior { ior 1.4 }
+}
+sphere {
+  <1, 0.9, -1>, 0.8
+  finish { reflection 0.3 } // a line
+  pigment { rgbf <0.9, 1, 0.9, 0.9> } interior { ior 1.4 }
+}
+POV
+scene "glass by default" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 } }
+#default { texture { pigment { rgbf <1, 0.9, 0.9, 0.8> } finish { reflection 0.2 } } }
+sphere { <1, 0.9, -1>, 0.8 interior { ior 1.4 } }
+union {
+  sphere { <-1, 0.9, -1>, 0.8 interior { ior 1.4 } }
+  sphere { <0, 0.4, -1>, 0.4 pigment { rgb x } finish { reflection 0.3 } }
+}
+#macro Put(Thing) object { Thing translate x*1.5 } #end
+Put(sphere { <0, 0.4, -2>, 0.3 pigment { rgb y } finish { reflection 0.5 } })
+POV
+gloss=()
 end_of_scenes

@@ -14,10 +14,10 @@ draw() {
     expect_status 0
 }
 
-# says TEXT SETTINGS CAMERA FINISH [OBJECTS]
+# says TEXT SETTINGS CAMERA FINISH [OBJECTS]: "N: text" is about line N.
 says() {
     draw "${@:2}" || return 1
-    [[ $warnings == "povgloss: warning: scene.pov: $1" ]] || { echo "not said: $1"; show_run; return 1; }
+    [[ $warnings == "povgloss: warning: scene.pov:$1" ]] || { echo "not said: $1"; show_run; return 1; }
 }
 
 says_nothing() {
@@ -27,18 +27,32 @@ says_nothing() {
 
 glossy='reflection 0.5 Gloss(50)'
 check "nothing" says_nothing '' '' "$glossy"
-check "exponent in a reflection" says 'the exponent of a glossy reflection counts as 1' \
+check "exponent in a reflection" says '6: the exponent of a glossy reflection counts as 1' \
     '' '' 'reflection { 0.5 exponent 2 } Gloss(50)'
 check "exponent 1" says_nothing '' '' 'reflection { 0.5 exponent 1 } Gloss(50)'
-check "reflection_exponent" says 'the reflection_exponent of a glossy finish counts as 1' '' '' "reflection_exponent 2 $glossy"
-check "irid" says "irid in a glossy finish doesn't tint its reflection" '' '' "irid { 0.3 thickness 0.5 } $glossy"
+check "reflection_exponent" says '6: the reflection_exponent of a glossy finish counts as 1' '' '' "reflection_exponent 2 $glossy"
+check "irid" says "6: irid in a glossy finish doesn't tint its reflection" '' '' "irid { 0.3 thickness 0.5 } $glossy"
 check "irid in a finish that reflects nothing" says_nothing '' '' "$glossy" \
     'sphere { y, 1 pigment { rgb 1 } finish { irid { 0.3 } } }'
-check "focal blur" says 'focal blur leaves glossy reflections as sharp as they are' \
+check "focal blur" says '4: focal blur leaves glossy reflections as sharp as they are' \
     '' 'aperture 0.2 blur_samples 4 focal_point 0' "$glossy"
-check "photons that are saved" says "photons that the scene saves aren't reflected by glossy surfaces" \
+check "photons that are saved" says "3: photons that the scene saves aren't reflected by glossy surfaces" \
     'photons { count 100 save_file "mine.ph" }' '' "$glossy"
 check "photons" says_nothing 'photons { count 100 }' '' "$glossy" 'sphere { y, 1 pigment { rgb 1 } photons { target } }'
-check "two of them" says "irid in a glossy finish doesn't tint its reflection; focal blur leaves glossy reflections as sharp \
+lit='mm_per_unit 40 subsurface { samples 9, 9 }'
+check "subsurface light without plain mirrors" says_nothing "$lit" '' "$glossy"
+check "subsurface light and a plain mirror" says \
+    '3: with subsurface light, glossy surfaces that are seen in a mirror reflect nothing there' "$lit" '' "$glossy" \
+    'sphere { y, 1 pigment { rgb 1 } finish { reflection 0.2 } }'
+check "media in an object" says \
+    '7: media in an object neither dim nor tint the reflection of a glossy surface in or behind it' '' '' "$glossy" \
+    'sphere { y, 1 hollow pigment { rgbt 1 } interior { media { emission 0.1 } } }'
+glass='pigment { rgbt 0.9 } finish { reflection 0.1 }'
+check "glass and gloss in one object" says "7: this object holds something transparent and something glossy: \
+reflections inside the transparent part are left out; make them objects of their own" '' '' "$glossy" \
+    "difference { sphere { y, 1 $glass } box { 0, 2 pigment { rgb 1 } finish { $glossy } } }"
+check "glass and gloss in one union" says_nothing '' '' "$glossy" \
+    "union { sphere { y, 1 $glass } box { 0, 2 pigment { rgb 1 } finish { $glossy } } }"
+check "two of them" says "6: irid in a glossy finish doesn't tint its reflection; scene.pov:4: focal blur leaves glossy reflections as sharp \
 as they are" '' 'aperture 0.2 blur_samples 4 focal_point 0' "irid { 0.3 } $glossy"
 end_of_tests

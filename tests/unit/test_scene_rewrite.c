@@ -187,7 +187,7 @@ static void coded__textures_in_objects__become_transforms(void **state)
         {CODED, "union { object { O texture { A } texture { B } } pigment { P } }",
          "union { object { O transform {} transform {} } transform {} }"},
         {CODED, "blob { sphere { 0, 1, 1 pigment { P } } }", "blob { sphere { 0, 1, 1 transform {} } }"},
-        {CODED, "#macro M() texture { T } #end", "#macro M() transform {} #end"},
+        {CODED, "#macro M() texture { T } #end", "#macro M() #if (povgloss_value > 0) texture { T } #else transform {} #end #end"},
         {CODED, "#declare X = sphere { 0, 1 texture { T } }", "#declare X = sphere { 0, 1 transform {} }"},
     };
     ASSERT_REWRITINGS(cases);
@@ -207,9 +207,11 @@ static void coded__declared_textures__stay_with_their_layers(void **state)
                 "#declare M = 2; #end } union { povgloss_nothing()"},
         {CODED, "#declare A[0] = texture { T }", NULL},
         {CODED, "#default { texture { pigment { rgb 1 } } }",
-         "povgloss_modifiers() } #default { texture { pigment { rgb 1 } } } union { povgloss_nothing()"},
+         "povgloss_modifiers() } #default { texture { pigment { rgb 1 } } } #default { texture { povgloss_default } } "
+         "union { povgloss_nothing()"},
         {CODED, "# default { finish { ambient 0 } } sphere { 0, 1 pigment { P } }",
-         "povgloss_modifiers() } # default { finish { ambient 0 } } union { povgloss_nothing() sphere { 0, 1 transform {} }"},
+         "povgloss_modifiers() } # default { finish { ambient 0 } } #default { texture { povgloss_default } } "
+         "union { povgloss_nothing() sphere { 0, 1 transform {} }"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -258,13 +260,13 @@ static void copy__finishes__marked(void **state)
     (void)state;
     static const struct rewriting cases[] = {
         {BASE, "sphere { 0, 1 finish { phong 1 } }",
-         "sphere { 0, 1 finish { povgloss_begin(povgloss_none) phong 1 povgloss_end() } }"},
-        {BASE, "sphere { 0, 1 finish { } }", "sphere { 0, 1 finish { povgloss_begin(povgloss_none) povgloss_end() } }"},
+         "sphere { 0, 1 finish { povgloss_begin(povgloss_default_state) phong 1 povgloss_end() } }"},
+        {BASE, "sphere { 0, 1 finish { } }", "sphere { 0, 1 finish { povgloss_begin(povgloss_default_state) povgloss_end() } }"},
         {MIRROR, "sphere { 0, 1 texture { finish { reflection 0.5 Gloss(9) } } }",
          "sphere { 0, 1 " TEXTURE "finish { povgloss_begin(povgloss_texture) povgloss_reflection(1) reflection 0.5 "
          "Gloss(9) povgloss_end() } } }"},
         {REFLECTANCE, "sphere { 0, 1 finish { reflection { 0.1, 1 fresnel } } }",
-         "sphere { 0, 1 finish { povgloss_begin(povgloss_none) povgloss_reflection(1) reflection { 0.1, 1 fresnel } "
+         "sphere { 0, 1 finish { povgloss_begin(povgloss_default_state) povgloss_reflection(1) reflection { 0.1, 1 fresnel } "
          "povgloss_end() } }"},
         {PLAIN, "sphere { 0, 1 finish { reflection 1 Gloss(9) } }", NULL},
     };
@@ -277,7 +279,8 @@ static void copy__chosen_names__given_their_exponent(void **state)
     static struct gloss_name names[] = {{"N", 300}, {"M", INFINITY}};
     static const struct rewriting cases[] = {
         {BASE, "#declare N = finish { F } x",
-         "#declare N = finish { #declare povgloss_given = 300; povgloss_begin(povgloss_none) F povgloss_end_of_name() "
+         "#declare N = finish { #declare povgloss_given = 300; povgloss_begin(povgloss_default_state) "
+         "povgloss_of_default() F povgloss_end_of_name() "
          "#declare povgloss_given = -1; } #declare povgloss_of_0 = povgloss_last; x"},
         {BASE, "#declare M = material { texture { T } } x",
          "#declare M = material { #declare povgloss_given = 1e+30; #declare povgloss_last = povgloss_none; " TEXTURE
@@ -297,15 +300,15 @@ static void copy__highlights__noted_for_automatic_gloss(void **state)
     (void)state;
     static const struct rewriting automatic[] = {
         {BASE, "finish { phong 1 phong_size 4*S reflection 0 }",
-         "finish { povgloss_begin(povgloss_none) phong 1 #declare povgloss_size = 4*S; povgloss_phong_size() "
+         "finish { povgloss_begin(povgloss_default_state) phong 1 #declare povgloss_size = 4*S; povgloss_phong_size() "
          "povgloss_reflection(0) reflection 0 povgloss_end() }"},
         {MIRROR, "finish { specular 1 roughness\n1/60 }",
-         "finish { povgloss_begin(povgloss_none) specular 1 #declare povgloss_size =\n1/60; povgloss_roughness() "
+         "finish { povgloss_begin(povgloss_default_state) specular 1 #declare povgloss_size =\n1/60; povgloss_roughness() "
          "povgloss_end() }"},
         {CODED, "#declare F = finish { phong_size 9 }", NULL},
     };
     static const struct rewriting else_plain[] = {
-        {BASE, "finish { phong_size 9 }", "finish { povgloss_begin(povgloss_none) phong_size 9 povgloss_end() }"},
+        {BASE, "finish { phong_size 9 }", "finish { povgloss_begin(povgloss_default_state) phong_size 9 povgloss_end() }"},
     };
     chosen.automatic = true;
     ASSERT_REWRITINGS(automatic);
@@ -319,16 +322,17 @@ static void copy__declared_finishes_and_textures__hand_their_gloss_on(void **sta
     (void)state;
     static const struct rewriting cases[] = {
         {BASE, "#declare X = 1; #declare F = finish { phong 1 }\nsphere { 0, X finish { F } }",
-         "#declare X = 1; #declare F = finish { povgloss_begin(povgloss_none) phong 1 povgloss_end_of_name() } "
+         "#declare X = 1; #declare F = finish { povgloss_begin(povgloss_default_state) povgloss_of_default() phong 1 "
+         "povgloss_end_of_name() } "
          "#declare povgloss_of_1 = povgloss_last; \n"
-         "sphere { 0, X finish { povgloss_begin(povgloss_none) F #ifdef (povgloss_of_1) povgloss_of_finish(povgloss_of_1) #end "
+         "sphere { 0, X finish { povgloss_begin(povgloss_default_state) F #ifdef (povgloss_of_1) povgloss_of_finish(povgloss_of_1) #end "
          "povgloss_end() } }"},
         {BASE, "#declare T = texture { A };\nsphere { 0, 1 texture { T } }",
          "#declare T = " TEXTURE "A }; #declare povgloss_of_0 = povgloss_last; \n"
          "sphere { 0, 1 texture { povgloss_layer() T #ifdef (povgloss_of_0) povgloss_of_texture(povgloss_of_0) #end "
          "povgloss_layered() } }"},
         {BASE, "#declare A[0] = finish { phong 1 }",
-         "#declare A[0] = finish { povgloss_begin(povgloss_none) phong 1 povgloss_end() }"},
+         "#declare A[0] = finish { povgloss_begin(povgloss_default_state) povgloss_of_default() phong 1 povgloss_end() }"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -351,7 +355,7 @@ static void copy__lights__where_they_are_needed(void **state)
          "#declare Place = <1, 2, 3>; light_source { A[0] }"},
         {MIRROR, "#declare L = light_source { 0 rgb 1 } object { L translate x } object { M }",
          "#declare L = light_source { 0 rgb 1 fade_distance 1e-9 fade_power 20 } object { L translate x } object { M }"},
-        {BASE2, "light_group { light_source { 0 rgb 1 } object { O } global_lights off }", NULL},
+        {BASE2, "light_group { light_source { 0 rgb 1 } sphere { 0, 1 } global_lights off }", NULL},
         {CODED, "light_group { union { light_source { 0 rgb 1 } } }", NULL},
     };
     ASSERT_REWRITINGS(cases);
@@ -384,7 +388,7 @@ static void copy__arrays_of_textures__take_no_directives(void **state)
         {CODED, "#declare F = array[1] { texture { pigment { P } } }", NULL},
         {BASE, "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { F[0] } }",
          "#declare povgloss_of_0 = array[1] #declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { "
-         "povgloss_begin(povgloss_none) F[0] #ifdef (povgloss_of_0[0]) povgloss_of_finish(povgloss_of_0[0]) #end "
+         "povgloss_begin(povgloss_default_state) F[0] #ifdef (povgloss_of_0[0]) povgloss_of_finish(povgloss_of_0[0]) #end "
          "#declare povgloss_reflects = 1; povgloss_end() } }"},
     };
     ASSERT_REWRITINGS(cases);
@@ -400,10 +404,14 @@ static void copy__pigments_that_may_be_transparent__looked_at_by_povray(void **s
         "pigment { image_map { \"a.png\" } }",
     };
     for (size_t i = 0; i < sizeof clear / sizeof *clear; i++) {
-        char source[128], seen[256];
+        char source[128], coded[256], seen[256];
         snprintf(source, sizeof source, "sphere { 0, 1 %s }", clear[i]);
-        snprintf(seen, sizeof seen, "sphere { 0, 1 #declare povgloss_cover = %s; povgloss_cover_of_object(0) }", clear[i]);
-        const struct rewriting cases[] = {{MIRROR, source, seen}, {REFLECTANCE, source, seen}, {CODED, source, seen},
+        snprintf(coded, sizeof coded, "sphere { 0, 1 #declare povgloss_cover = %s; povgloss_cover_of_object(0) }", clear[i]);
+        snprintf(seen, sizeof seen,
+                 "sphere { 0, 1 #declare povgloss_cover = %s; povgloss_cover_of_object(0) povgloss_count(povgloss_own) "
+                 "povgloss_hide(povgloss_own) }",
+                 clear[i]);
+        const struct rewriting cases[] = {{MIRROR, source, seen}, {REFLECTANCE, source, seen}, {CODED, source, coded},
                                           {BASE, source, NULL},   {PLAIN, source, NULL}};
         ASSERT_REWRITINGS(cases);
     }
@@ -411,7 +419,8 @@ static void copy__pigments_that_may_be_transparent__looked_at_by_povray(void **s
         {REFLECTANCE, "sphere { 0, 1 texture { pigment { rgbt 1 } } }",
          "sphere { 0, 1 " TEXTURE COVER("pigment { rgbt 1 }", "texture") "povgloss_hide(povgloss_last) } }"},
         {MIRROR, "pigment { uv_mapping image_map { \"a.png\" } }",
-         "#declare povgloss_cover = pigment { uv_mapping image_map { \"a.png\" } }; povgloss_cover_of_object(1) "},
+         "#declare povgloss_cover = pigment { uv_mapping image_map { \"a.png\" } }; povgloss_cover_of_object(1) "
+         "povgloss_count(povgloss_own) povgloss_hide(povgloss_own) "},
         /* By way of other names, also backwards; parameters of macros may be anything. */
         {CODED, "#declare A = B; #declare B = rgbt 1; pigment { A }",
          "#declare A = B; #ifdef (povgloss_of_1) #declare povgloss_of_0 = povgloss_of_1; #end #declare B = rgbt 1; " COVER("pigment { A }", "object")},
@@ -448,10 +457,17 @@ static void base__transparent_objects_of_the_top_level__placed_by_povray(void **
     static const struct rewriting cases[] = {
         {SCENE_COPY_BASE_FIRST, "sphere { 0, 1 pigment { rgbt 1 } }",
          "#declare povgloss_object = sphere { povgloss_enter() 0, 1 " COVER("pigment { rgbt 1 }", "object")
-         "} povgloss_place() "},
+         "povgloss_count(povgloss_own) } povgloss_place(0, 1) "},
         {BASE2, "#if (1) object { A texture { pigment { rgbt 1 } } } #end",
-         "#if (1) #declare povgloss_object = object { povgloss_enter() A " TEXTURE COVER("pigment { rgbt 1 }", "texture")
-         "} } povgloss_place() #end"},
+         "#if (1) #declare povgloss_object = object { povgloss_enter() povgloss_add(<0, 0, 1>) A " TEXTURE
+         COVER("pigment { rgbt 1 }", "texture") "} } povgloss_place(0, 1) #end"},
+        {BASE2, "union { sphere { 0, 1 pigment { rgbt 1 } } rotate y }",
+         "povgloss_leave_copy() union { povgloss_nothing() #declare povgloss_object = sphere { povgloss_enter() 0, 1 "
+         COVER("pigment { rgbt 1 }", "object") "povgloss_count(povgloss_own) } povgloss_place_part(0, 1) rotate y } povgloss_enter_copy() "},
+        {BASE2, "union { sphere { 0, 1 } pigment { rgbt 1 } }",
+         "#declare povgloss_object = union { povgloss_enter() povgloss_count(povgloss_default_state) sphere { 0, 1 } "
+         COVER("pigment { rgbt 1 }", "object")
+         "povgloss_count(povgloss_own) } povgloss_place(0, 1) "},
         {SCENE_COPY_BASE_FIRST, "sphere { 0, 1 pigment { rgb 1 } } union { sphere { 0, 1 } }", NULL},
         {BASE, "sphere { 0, 1 pigment { rgbt 1 } }", NULL},
     };
