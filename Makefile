@@ -39,7 +39,13 @@ LIB_OBJECTS := $(LIB_SOURCES:src/%.c=$(BUILD)/obj/%.o) $(if $(wildcard src/filte
 LIBRARY := $(BUILD)/libgloss.a
 UNIT_TESTS := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/test_*.c))
 
-TOOLS := $(patsubst tests/tools/%.c,$(BUILD)/tests/tools/%,$(wildcard tests/tools/*.c))
+TOOLS := $(patsubst tests/tools/%.c,$(BUILD)/tests/tools/%,$(filter-out tests/tools/preload_%,$(wildcard tests/tools/*.c)))
+TOOLS += $(BUILD)/tests/tools/faults.so
+# Each fuzz target twice: with a main that replays files, and with libFuzzer's.
+FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
+FUZZ_REPLAYS := $(FUZZ_TARGETS:%=$(BUILD)/tests/fuzz/replay_%)
+FUZZERS := $(FUZZ_TARGETS:%=$(BUILD)/tests/fuzz/fuzz_%)
+FUZZ_SECONDS := 60
 SCENES := $(patsubst povscenes/%.pov,build/scenes/%.png,$(wildcard povscenes/*.pov))
 
 .PHONY: all
@@ -67,10 +73,12 @@ $(BUILD)/obj/%.o: src/%.c $(FLAGS_STAMP)
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
 
-# POV-Ray isn't sanitized, and what is loaded into it can't be either.
-$(PRELOAD): src/preload_reads.c $(FLAGS_STAMP)
+# POV-Ray isn't sanitized, and what is loaded into it can't be either; nor what stands before a sanitizer's own calls.
+$(PRELOAD): src/preload_reads.c
+$(BUILD)/tests/tools/faults.so: tests/tools/preload_faults.c
+$(PRELOAD) $(BUILD)/tests/tools/faults.so: $(FLAGS_STAMP)
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(filter-out -fsanitize=%,$(CFLAGS)) -fPIC -shared -o $@ $< -ldl
+	$(CC) $(CPPFLAGS) $(filter-out -fsanitize=%,$(CFLAGS)) -fPIC -shared -o $@ $(filter %.c,$^) -ldl
 
 $(LIBRARY): $(LIB_OBJECTS)
 	rm -f $@
@@ -87,6 +95,16 @@ $(BUILD)/tests/%: tests/unit/%.c $(LIBRARY) $(FLAGS_STAMP)
 $(BUILD)/tests/tools/%: tests/tools/%.c $(LIBRARY) $(FLAGS_STAMP)
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MMD -MP -o $@ $< $(LIBRARY) -lcmocka $(LDLIBS)
+
+$(BUILD)/tests/fuzz/replay_%: tests/fuzz/fuzz_%.c tests/fuzz/replay.c $(LIBRARY) $(FLAGS_STAMP)
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -o $@ $< tests/fuzz/replay.c $(LIBRARY) $(LDLIBS)
+
+$(BUILD)/tests/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(LIBRARY) $(FLAGS_STAMP)
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -DFUZZ_MUTATOR -fsanitize=fuzzer -o $@ $< $(LIBRARY) $(LDLIBS)
+
+$(FUZZ_REPLAYS) $(FUZZERS): tests/fuzz/fuzz_support.h $(wildcard src/*.h) src/main_povgloss.c
 
 # What follows `deps` on the command line needs what it installs.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
@@ -143,8 +161,27 @@ build/figures/figures.png: $(FIGURES)
 	oiiotool $^ --mosaic:pad=8 3x1 -o $@
 
 .PHONY: check
-check: $(PROGRAMS) $(PRELOAD) $(UNIT_TESTS) $(TOOLS) ## all tests; SANITIZE=address,undefined tests a sanitized build
+check: $(PROGRAMS) $(PRELOAD) $(UNIT_TESTS) $(TOOLS) $(FUZZ_REPLAYS) ## all tests; SANITIZE=address,undefined tests a sanitized build
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools CC=$(CC) scripts/check.sh $(UNIT_TESTS)
+
+.PHONY: faults
+faults: $(PROGRAMS) $(PRELOAD) $(TOOLS) ## every call that can fail, failing in turn, and 100 signals (long)
+	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools FAULTS=all MOMENTS=100 prove --exec '' --timer tests/e2e/faults.sh \
+	    tests/e2e/signals.sh
+
+# A corpus grows in build/fuzz; an input that fails is left beside it, and becomes a seed when its cause is gone.
+.PHONY: fuzz
+fuzz: ## fuzz each reader for FUZZ_SECONDS (60) with clang's libFuzzer and sanitizers
+	$(MAKE) CC=clang SANITIZE=fuzzer-no-link,address,undefined run-fuzzers
+
+.PHONY: run-fuzzers
+run-fuzzers: $(FUZZERS)
+	for target in $(FUZZ_TARGETS); do \
+	    mkdir -p build/fuzz/$$target && \
+	    $(CURDIR)/$(BUILD)/tests/fuzz/fuzz_$$target -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=3000 \
+	        -print_final_stats=1 -artifact_prefix=$(CURDIR)/build/fuzz/$$target- \
+	        $(CURDIR)/build/fuzz/$$target $(CURDIR)/tests/fuzz/seeds/$$target || exit; \
+	done
 
 .PHONY: corpus
 corpus: $(PROGRAMS) ## run every scene of povray-examples as it is; the table is docs/corpus.md

@@ -42,7 +42,7 @@ enum result child_start(struct child *child, char *const *argv, const char *dire
     return RESULT_OK;
 }
 
-static void close_output(struct child *child)
+void child_close_output(struct child *child)
 {
     if (child->output_fd >= 0)
         close(child->output_fd);
@@ -60,8 +60,19 @@ int child_wait(struct child *child)
     while (waitpid(child->pid, &status, 0) < 0 && errno == EINTR)
         ;
     child->pid = 0;
-    close_output(child);
+    child_close_output(child);
     return exit_status(status);
+}
+
+bool child_has_ended(struct child *child, int *status)
+{
+    int ended = 0;
+    if (waitpid(child->pid, &ended, WNOHANG) == 0)
+        return false;
+    child->pid = 0;
+    child_close_output(child);
+    *status = exit_status(ended);
+    return true;
 }
 
 void child_kill(struct child *const *children, int count)
@@ -70,7 +81,7 @@ void child_kill(struct child *const *children, int count)
     for (int i = 0; i < count; i++)
         if (children[i]->pid > 0) {
             kill(children[i]->pid, SIGTERM);
-            close_output(children[i]);
+            child_close_output(children[i]);
             left++;
         }
     for (int tenths = 0; left > 0 && tenths < 20; tenths++) {

@@ -1,7 +1,7 @@
 /* Other programs as child processes.
  *
- * A child is started by child_start, its output read from output_fd until end of file, and then reaped by child_wait;
- * child_kill ends those that should not go on. Every started child is reaped exactly once.
+ * A child is started by child_start, its output read from output_fd until end of file, and then reaped by child_wait or
+ * child_has_ended; child_kill ends those that should not go on. Every started child is reaped exactly once.
  */
 #ifndef POVGLOSS_CHILD_H
 #define POVGLOSS_CHILD_H
@@ -23,6 +23,11 @@ MUST_CHECK enum result child_start(struct child *child, char *const *argv, const
 
 /* Waits for the end and closes output_fd: the exit status, or 128 + the signal that ended it. */
 int child_wait(struct child *child);
+
+/* The same without waiting: false while it runs. */
+bool child_has_ended(struct child *child, int *status);
+
+void child_close_output(struct child *child);
 
 /* Asks all the children to end, and makes those end that haven't after two seconds; reaps them. Those that aren't running
  * are passed over. */

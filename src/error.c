@@ -15,5 +15,7 @@ enum result error_set(struct error *err, enum result result, const char *format,
 
 enum result error_memory(struct error *err, double bytes)
 {
-    return error_set(err, RESULT_DATA, "out of memory: %.0f bytes were asked for; a smaller image needs less", bytes);
+    if (bytes > 0)
+        return error_set(err, RESULT_DATA, "out of memory: %.0f bytes were asked for; a smaller image needs less", bytes);
+    return error_set(err, RESULT_DATA, "out of memory; a smaller image needs less");
 }

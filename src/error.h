@@ -24,7 +24,7 @@ struct error {
 __attribute__((format(printf, 3, 4))) enum result error_set(struct error *err, enum result result, const char *format,
                                                             ...);
 
-/* RESULT_DATA with the message for a failed allocation of `bytes`. */
+/* RESULT_DATA with the message for a failed allocation of `bytes`; 0: it isn't known how many. */
 enum result error_memory(struct error *err, double bytes);
 
 #endif

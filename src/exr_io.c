@@ -17,6 +17,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* No compression goes beyond deflate's 1032:1, and a half becomes a float. */
+static const double max_bytes_per_byte = 2 * 1032;
+
 /* zlib's level 2 takes 0.6 of the default level's time, for a passes file 6 % larger. */
 enum { MAX_CHANNELS = 1024, MAX_JOINS = 64, SHORT_NAME_LENGTH = 31, ZIP_LEVEL = 2 };
 
@@ -29,6 +32,33 @@ static const char version_name[] = "povgloss:version";
 static void ignore_message(exr_const_context_t context, exr_result_t code, const char *message)
 {
     (void)context, (void)code, (void)message;
+}
+
+/* What OpenEXRCore couldn't have: its result codes don't always tell. */
+static atomic_size_t bytes_lacking;
+
+static void *allocate(size_t size)
+{
+    void *block = malloc(size);
+    if (!block)
+        bytes_lacking = size;
+    return block;
+}
+
+static exr_context_initializer_t begin_context(void *user_data)
+{
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    initializer.error_handler_fn = ignore_message;
+    initializer.alloc_fn = allocate;
+    initializer.free_fn = free;
+    initializer.user_data = user_data;
+    bytes_lacking = 0;
+    return initializer;
+}
+
+static bool is_memory(exr_result_t code)
+{
+    return code == EXR_ERR_OUT_OF_MEMORY || bytes_lacking > 0;
 }
 
 static int64_t memory_read(exr_const_context_t context, void *user_data, void *buffer, uint64_t size, uint64_t offset,
@@ -55,6 +85,7 @@ static int64_t memory_size(exr_const_context_t context, void *user_data)
 struct reader {
     exr_context_t context;
     const char *name; /* for messages */
+    size_t file_size; /* bytes */
     bool tiled;
     int left, top, width, height;    /* the data window */
     int32_t block_width, block_height; /* of a tile, or of a chunk of scanlines */
@@ -62,6 +93,8 @@ struct reader {
 
 static enum result damaged(const struct reader *reader, exr_result_t code, struct error *err)
 {
+    if (is_memory(code))
+        return error_memory(err, (double)bytes_lacking);
     return error_set(err, RESULT_DATA, "%s: the OpenEXR file is damaged or cut short (%s)", reader->name,
                      exr_get_default_error_message(code));
 }
@@ -162,6 +195,11 @@ static enum result read_channel_list(const struct reader *reader, struct exr_con
         return error_set(err, RESULT_DATA, "%s: has %d channels; from 1 to %d are read", reader->name,
                          channels, MAX_CHANNELS);
     double bytes = (double)sizeof(float) * reader->width * reader->height * channels;
+    if (bytes > max_bytes_per_byte * (double)reader->file_size)
+        return error_set(err, RESULT_DATA,
+                         "%s: the OpenEXR file is damaged or cut short (%d x %d pixels of %d channels can't be in %zu "
+                         "bytes)",
+                         reader->name, reader->width, reader->height, channels, reader->file_size);
     if (bytes > input_memory_limit())
         return error_set(err, RESULT_DATA,
                          "%s: %d x %d pixels of %d channels take %.1f GB, more than half of this machine's memory; "
@@ -320,20 +358,23 @@ enum result exr_read(const char *path, struct exr_contents *contents, struct err
     if (result)
         return result;
 
+    reader.file_size = file.size;
     if (file.size < sizeof magic || memcmp(file.data, magic, sizeof magic) != 0) {
         result = error_set(err, RESULT_DATA, "%s: %s", reader.name,
                            file.size == 0 ? "is empty" : "not an OpenEXR file");
         goto out;
     }
-    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    initializer.error_handler_fn = ignore_message;
-    initializer.user_data = &file;
+    exr_context_initializer_t initializer = begin_context(&file);
     initializer.read_fn = memory_read;
     initializer.size_fn = memory_size;
     initializer.max_image_width = initializer.max_image_height = IMAGE_MAX_SIDE;
     initializer.max_tile_width = initializer.max_tile_height = IMAGE_MAX_SIDE;
     initializer.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     exr_result_t code = exr_start_read(&reader.context, reader.name, &initializer);
+    if (is_memory(code)) {
+        result = error_memory(err, (double)bytes_lacking);
+        goto out;
+    }
     if (code) {
         result = error_set(err, RESULT_DATA,
                            "%s: the OpenEXR header is damaged, cut short or of an image of more than %d pixels a side "
@@ -390,8 +431,10 @@ static int64_t memory_write(exr_const_context_t context, void *user_data, const 
     if (end > file->capacity) {
         size_t capacity = end > 2 * file->capacity ? end : 2 * file->capacity;
         unsigned char *larger = realloc(file->data, capacity);
-        if (!larger)
+        if (!larger) {
+            bytes_lacking = capacity;
             return -1;
+        }
         file->data = larger;
         file->capacity = capacity;
     }
@@ -532,9 +575,7 @@ static exr_result_t begin_file(exr_context_t context, int *part, const struct ex
 static enum result encode(const char *name, struct memory_file *file, const struct exr_channel *channels,
                           int channel_count, const struct exr_attributes *attributes, struct error *err)
 {
-    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    initializer.error_handler_fn = ignore_message;
-    initializer.user_data = file;
+    exr_context_initializer_t initializer = begin_context(file);
     initializer.write_fn = memory_write;
     struct encoding encoding = {.channels = channels,
                                 .channel_count = channel_count,
@@ -554,7 +595,10 @@ static enum result encode(const char *name, struct memory_file *file, const stru
     exr_result_t finished = exr_finish(&encoding.context);
     if (!code)
         code = finished;
-    if (code && !result)
+    /* OpenEXRCore calls every failure of zlib a corrupt chunk: compressing fails only for lack of memory. */
+    if (code && !result && (is_memory(code) || code == EXR_ERR_CORRUPT_CHUNK))
+        result = error_memory(err, (double)bytes_lacking);
+    else if (code && !result)
         result = error_set(err, RESULT_DATA, "%s: the OpenEXR file cannot be made (%s)", name,
                            exr_get_default_error_message(code));
     return result;

@@ -40,6 +40,7 @@ static const char help[] =
     "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
     "                       interpolate; needs +W and +H\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
+    "  --timeout SECONDS    end a POV-Ray process that runs longer, and fail; 0: never (default)\n"
     "  --no-check           don't compare the sum of the passes with a small picture by POV-Ray itself\n"
     "  --depfile FILE       write a make rule that names every file the scene read, but the system's\n"
     "  --keep DIR           leave the rewritten scenes and POV-Ray's images in DIR\n"
@@ -109,6 +110,7 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
         {"--keep", &command->passes.keep, NULL, 0, 0},
         {"--povray", &command->passes.povray, NULL, 0, 0},
         {"--jobs", NULL, &command->passes.jobs, 0, 64},
+        {"--timeout", NULL, &command->passes.timeout_s, 0, 10000000},
         {"--subsample", NULL, &command->passes.subsample, 1, 4},
     };
     const char *value;
@@ -352,6 +354,15 @@ static void warn(const struct command *command, const char *frame, const struct 
     cli_complain("povgloss: warning", &warning);
 }
 
+/* A folder that stays is no failure of the picture, but must not stay unknown. */
+static void close_passes(struct passes **passes)
+{
+    struct error warning;
+    if (passes_close(*passes, &warning))
+        cli_complain("povgloss: warning", &warning);
+    *passes = NULL;
+}
+
 /* One image to `path`; `frame` names it in messages. */
 static enum result draw_frame(struct command *command, struct passes **passes, int number, const char *frame,
                               const char *path, struct error *err)
@@ -386,10 +397,8 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
     if (!result && last && command->depfile)
         result = passes_reads(*passes, &command->reads, err);
     /* A pipe whose reader went away ends the program as it writes: no folder is there then. */
-    if (last) {
-        passes_close(*passes);
-        *passes = NULL;
-    }
+    if (last)
+        close_passes(passes);
 
     /* 3. the passes file, or the picture by the filter */
     if (!result && command->passes_only)
@@ -426,7 +435,7 @@ static enum result run(struct command *command, struct error *err)
             result = text_list_add(&command->outputs, err, "%s", path);
         free(path);
     }
-    passes_close(passes);
+    close_passes(&passes);
     return result || !command->depfile ? result
                                        : depfile_write(command->depfile, &command->outputs, &command->reads, err);
 }

@@ -13,6 +13,7 @@
 #include "work_folder.h"
 
 #include <assert.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,6 +32,8 @@ struct passes {
     char *preload;
     struct reads reads;
     int discoveries;
+    char version[POVRAY_VERSION_SIZE]; /* of a POV-Ray that isn't 3.7; told is whether the user knows */
+    bool version_told;
     bool has_folder[PASS_COUNT];
     struct povray_job jobs[PASS_COUNT];
     enum pass_id ids[PASS_COUNT];
@@ -114,6 +117,8 @@ static enum result write_scenes(struct passes *passes, struct error *err)
 static enum result add_directory(struct passes *passes, const char *path, struct error *err)
 {
     char *absolute = realpath(path, NULL);
+    if (!absolute && errno == ENOMEM)
+        return error_memory(err, 0);
     /* POV-Ray too passes over a folder that isn't there. */
     enum result result = absolute ? text_list_add(&passes->directories, err, "%s", absolute) : RESULT_OK;
     if (!result && absolute)
@@ -187,7 +192,10 @@ static enum result scene_arguments(const struct passes *passes, int frame, struc
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
     /* POV-Ray runs in a folder of its own. */
+    errno = 0;
     char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
+    if (!program && errno == ENOMEM)
+        return error_memory(err, 0);
     enum result result = text_list_add(arguments, err, "%s", program ? program : options->povray);
     free(program);
     for (int i = 0; !result && i < switches->passed.count; i++)
@@ -274,6 +282,24 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     return result;
 }
 
+/* A failure may come from a switch or a word that another version doesn't know. */
+static void blame_version(const struct povray_job *job, struct error *err)
+{
+    char version[POVRAY_VERSION_SIZE];
+    struct error cause = *err;
+    if (povray_is_other_version(&job->messages, version))
+        error_set(err, RESULT_POVRAY, "%s; this is POV-Ray %s, and povgloss needs 3.7", cause.text, version);
+}
+
+/* POV-Ray stops without a word where its image can't be written. */
+static void blame_disk(const struct passes *passes, struct error *err)
+{
+    struct error cause = *err;
+    if (work_folder_is_full(&passes->folder))
+        error_set(err, RESULT_POVRAY, "%s; less than 1 MB is left in %s: set TMPDIR to a folder with more space",
+                  cause.text, passes->folder.path);
+}
+
 /* A file that POV-Ray found in a library folder, by the user's name of the folder. */
 static enum result add_user_name(const struct passes *passes, const char *path, struct buffer *text, struct error *err)
 {
@@ -294,6 +320,8 @@ static enum result report_failure(const struct passes *passes, const struct povr
     struct error ignored = {0};
     enum result result = povray_error_text(&job->messages, &text, &ignored);
     const char *at = text.data ? text.data : "";
+    blame_version(job, err);
+    blame_disk(passes, err);
     while (!result && *at) {
         const char *name = strstr(at, "File '");
         if (!name) {
@@ -373,7 +401,8 @@ static enum result run_discovery(struct passes *passes, const char *name, const 
     struct input_file log = {0};
     struct error ignored;
     enum result result = scene_arguments(passes, passes->frame, &arguments, err);
-    struct povray_job job = {.name = name, .folder = folder, .arguments = arguments.texts};
+    struct povray_job job = {
+        .name = name, .folder = folder, .arguments = arguments.texts, .timeout_s = passes->options->timeout_s};
     if (!result)
         result = text_printf(&path, err, "%s/" SCENE_DISCOVERY_LOG, folder);
     if (!result)
@@ -459,8 +488,10 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
         result = job_arguments(passes, passes->ids[i], frame, &arguments[i], err);
         if (!result)
             result = text_printf(&folders[i], err, "%s/%s", passes->folder.path, pass_table[passes->ids[i]].name);
-        passes->jobs[i] = (struct povray_job){
-            .name = pass_table[passes->ids[i]].name, .folder = folders[i], .arguments = arguments[i].texts};
+        passes->jobs[i] = (struct povray_job){.name = pass_table[passes->ids[i]].name,
+                                              .folder = folders[i],
+                                              .arguments = arguments[i].texts,
+                                              .timeout_s = options->timeout_s};
     }
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     int first = passes->ids[0] == PASS_PHOTONS; /* the others wait for it */
@@ -477,6 +508,8 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     }
     if (failed >= 0)
         result = report_failure(passes, &passes->jobs[failed], err);
+    if (!result && !povray_is_other_version(&passes->jobs[0].messages, passes->version))
+        passes->version[0] = 0;
     povray_jobs_free(passes->jobs, passes->job_count);
     for (int i = 0; i < passes->job_count; i++) {
         text_list_free(&arguments[i]);
@@ -526,6 +559,16 @@ static enum result check_scene(const struct passes *passes, struct error *note, 
     else
         return note_limits(passes, note, err);
     return RESULT_OK;
+}
+
+static void note_version(struct passes *passes, struct error *note)
+{
+    struct error before = *note;
+    if (!passes->version[0] || passes->version_told)
+        return;
+    passes->version_told = true;
+    error_set(note, RESULT_OK, "%s%sthis is POV-Ray %s: povgloss is made for 3.7, and the picture may be another",
+              before.text, before.text[0] ? "; " : "", passes->version);
 }
 
 /* The images of a long animation don't pile up. */
@@ -620,6 +663,8 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
     if (!result)
+        note_version(passes, note);
+    if (!result)
         result = note_mixed(passes, note, err);
     if (!result)
         result = remove_images(passes, &images, err);
@@ -676,14 +721,15 @@ enum result passes_reads(const struct passes *passes, struct buffer *files, stru
     return reads_list(&passes->reads, passes->options->scene, &passes->options->switches->ini_files, files, err);
 }
 
-void passes_close(struct passes *passes)
+enum result passes_close(struct passes *passes, struct error *err)
 {
     if (!passes)
-        return;
+        return RESULT_OK;
     free_scene(passes);
     reads_free(&passes->reads);
     free(passes->environment);
     free(passes->preload);
-    work_folder_remove(&passes->folder);
+    enum result result = work_folder_remove(&passes->folder, err);
     free(passes);
+    return result;
 }

@@ -30,6 +30,7 @@ struct passes_options {
     int subsample;        /* 1; 2 or 4: specular, a and b are traced at every so-many-th pixel and interpolated; then the
                              switches say the size */
     int jobs;             /* POV-Ray processes at the same time; 0: two more than there are cores */
+    int timeout_s;        /* for each POV-Ray process; 0: none */
     bool check;           /* POV-Ray's own picture is rendered, too, for passes_check */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
@@ -61,7 +62,7 @@ MUST_CHECK enum result passes_check(const struct passes *passes, int frame, cons
 /* Adds the files that POV-Ray and povgloss read for the frames that were rendered to *files, as reads_list does. */
 MUST_CHECK enum result passes_reads(const struct passes *passes, struct buffer *files, struct error *err);
 
-/* Leaves no folder but `keep`. NULL is allowed. */
-void passes_close(struct passes *passes);
+/* Leaves no folder but `keep`; RESULT_DATA where the temporary one can't be removed. NULL is allowed. */
+MUST_CHECK enum result passes_close(struct passes *passes, struct error *err);
 
 #endif

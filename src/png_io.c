@@ -19,6 +19,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What deflate reaches at best. */
+static const double max_bytes_per_byte = 1032;
+
 /* A PNG that is being read or written. */
 struct codec {
     jmp_buf failed;
@@ -36,7 +39,23 @@ struct codec {
     struct output_file output;
     enum result result; /* of the output, its message in *err */
     struct error *err;
+    size_t bytes_lacking; /* memory that libpng couldn't have */
 };
+
+static png_voidp allocate(png_structp png, png_alloc_size_t size)
+{
+    struct codec *codec = png_get_mem_ptr(png);
+    void *block = malloc(size);
+    if (!block)
+        codec->bytes_lacking = size;
+    return block;
+}
+
+static void release(png_structp png, png_voidp block)
+{
+    (void)png;
+    free(block);
+}
 
 static PNG_NORETURN void on_error(png_structp png, png_const_charp message)
 {
@@ -64,15 +83,21 @@ static bool decode(struct codec *codec)
 {
     if (setjmp(codec->failed))
         return false;
-    codec->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, codec, on_error, on_warning);
+    codec->png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, codec, on_error, on_warning, codec, allocate, release);
     codec->info = codec->png ? png_create_info_struct(codec->png) : NULL;
     if (!codec->info) {
         snprintf(codec->message, sizeof codec->message, "libpng cannot be started");
         return false;
     }
     png_set_user_limits(codec->png, IMAGE_MAX_SIDE, IMAGE_MAX_SIDE);
+    /* Texts and profiles: a chunk claims up to 2 GB, and libpng takes as much before it reads. */
+    png_set_keep_unknown_chunks(codec->png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
+    png_set_chunk_malloc_max(codec->png, codec->input.size);
     png_set_read_fn(codec->png, codec, read_bytes);
     png_read_info(codec->png, codec->info);
+    double packed = (double)png_get_rowbytes(codec->png, codec->info) * png_get_image_height(codec->png, codec->info);
+    if (packed > max_bytes_per_byte * (double)codec->input.size)
+        png_error(codec->png, "its pixels can't be in so few bytes");
     png_set_palette_to_rgb(codec->png);
     png_set_expand_gray_1_2_4_to_8(codec->png);
     png_set_gray_to_rgb(codec->png);
@@ -88,10 +113,8 @@ static bool decode(struct codec *codec)
     /* The planes of floats take at most four times as much again. */
     if (5.0 * (double)codec->row_bytes * codec->height > input_memory_limit())
         return true;
-    codec->pixels = malloc(codec->row_bytes * (size_t)codec->height);
-    codec->rows = malloc(sizeof *codec->rows * (size_t)codec->height);
-    if (!codec->pixels || !codec->rows)
-        png_error(codec->png, "out of memory");
+    codec->pixels = png_malloc(codec->png, codec->row_bytes * (size_t)codec->height);
+    codec->rows = png_malloc(codec->png, sizeof *codec->rows * (size_t)codec->height);
     for (int y = 0; y < codec->height; y++)
         codec->rows[y] = codec->pixels + (size_t)y * codec->row_bytes;
     png_read_image(codec->png, codec->rows);
@@ -129,8 +152,10 @@ enum result png_read(const char *path, struct image *image, struct error *err)
         goto out;
     }
     if (!decode(&codec)) {
-        result = error_set(err, RESULT_DATA, "%s: the PNG file is damaged, cut short or too large (%s)", name,
-                           codec.message);
+        result = codec.bytes_lacking
+                     ? error_memory(err, (double)codec.bytes_lacking)
+                     : error_set(err, RESULT_DATA, "%s: the PNG file is damaged, cut short or too large (%s)", name,
+                                 codec.message);
         goto out;
     }
     if (!codec.pixels) {
@@ -179,7 +204,7 @@ static bool encode(struct codec *codec, const struct image *image)
 {
     if (setjmp(codec->failed))
         return false;
-    codec->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, codec, on_error, on_warning);
+    codec->png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, codec, on_error, on_warning, codec, allocate, release);
     codec->info = codec->png ? png_create_info_struct(codec->png) : NULL;
     if (!codec->info) {
         snprintf(codec->message, sizeof codec->message, "libpng cannot be started");
@@ -224,8 +249,9 @@ enum result png_write_srgb(const char *path, const struct image *image, int bits
         goto out;
     }
     if (!encode(&codec, image)) {
-        result = codec.result ? codec.result
-                              : error_set(err, RESULT_DATA, "%s: the PNG file cannot be made (%s)",
+        result = codec.result          ? codec.result
+                 : codec.bytes_lacking ? error_memory(err, (double)codec.bytes_lacking)
+                                       : error_set(err, RESULT_DATA, "%s: the PNG file cannot be made (%s)",
                                           output_file_name(path), codec.message);
         goto out;
     }

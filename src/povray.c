@@ -1,4 +1,5 @@
-/* One poll loop over the standard errors of all running processes: end of file means that one has ended.
+/* One poll loop over the standard errors of all running processes: after its end of file a process is watched until it
+ * has ended.
  *
  * POV-Ray writes everything there: banner, options, warnings, errors, and its progress.
  */
@@ -7,13 +8,15 @@
 #include "interrupt.h"
 
 #include <errno.h>
+#include <math.h>
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
-enum { MAX_JOBS = 16, POLL_MS = 200, MAX_MESSAGES = 1 << 22 };
+enum { MAX_JOBS = 16, POLL_MS = 200, POLL_ENDING_MS = 5, MAX_MESSAGES = 1 << 22 };
 
 /* POV-Ray writes `Rendered N of M pixels (P%)`, ended by a carriage return. */
 static void read_progress(struct povray_job *job)
@@ -28,8 +31,15 @@ static void read_progress(struct povray_job *job)
         job->done = pixels / all;
 }
 
-/* Takes what there is to read; *ended is true at end of file. */
-static enum result read_messages(struct povray_job *job, bool *ended, struct error *err)
+static double now_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Takes what there is to read, and closes the pipe at its end. */
+static enum result read_messages(struct povray_job *job, struct error *err)
 {
     char block[4096];
     ssize_t count;
@@ -41,7 +51,8 @@ static enum result read_messages(struct povray_job *job, bool *ended, struct err
         if (job->messages.size < MAX_MESSAGES)
             result = buffer_add(&job->messages, block, (size_t)count, err);
     }
-    *ended = !result && (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR));
+    if (!result && (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR)))
+        child_close_output(&job->child);
     if (!result && job->messages.size)
         read_progress(job);
     return result;
@@ -56,6 +67,7 @@ static enum result start_job(struct povray_job *job, char *const *environment, s
                          "%s isn't in PATH: install POV-Ray 3.7 (on Debian: apt-get install povray povray-includes)",
                          job->arguments[0]);
     job->started = !result;
+    job->end_s = job->timeout_s > 0 ? now_s() + job->timeout_s : INFINITY;
     return result;
 }
 
@@ -79,24 +91,29 @@ enum result povray_run(struct povray_job *jobs, int count, int at_once, char *co
             running += !result;
         }
         struct pollfd polls[MAX_JOBS];
-        int owners[MAX_JOBS], poll_count = 0;
+        int owners[MAX_JOBS], poll_count = 0, wait_ms = POLL_MS;
         for (int i = 0; i < count; i++)
             if (jobs[i].started && !jobs[i].finished) {
                 owners[poll_count] = i;
+                /* poll() passes over a descriptor of -1. */
                 polls[poll_count++] = (struct pollfd){.fd = jobs[i].child.output_fd, .events = POLLIN};
+                if (jobs[i].child.output_fd < 0)
+                    wait_ms = POLL_ENDING_MS;
             }
-        if (!result && poll(polls, (nfds_t)poll_count, POLL_MS) < 0 && errno != EINTR)
+        if (!result && poll(polls, (nfds_t)poll_count, wait_ms) < 0 && errno != EINTR)
             result = error_set(err, RESULT_DATA, "waiting for POV-Ray failed: %s", strerror(errno));
         if (interrupt_signal())
             result = RESULT_INTERRUPTED;
         for (int i = 0; !result && i < poll_count; i++) {
             struct povray_job *job = &jobs[owners[i]];
-            bool ended = false;
+            int status;
             if (polls[i].revents)
-                result = read_messages(job, &ended, err);
-            if (result || !ended)
+                result = read_messages(job, err);
+            if (!result && now_s() > job->end_s)
+                result = error_set(err, RESULT_POVRAY, "POV-Ray took longer than %d s in the %s pass, and was ended: give it "
+                                   "more time (--timeout)", job->timeout_s, job->name);
+            if (result || job->child.output_fd >= 0 || !child_has_ended(&job->child, &status))
                 continue;
-            int status = child_wait(&job->child);
             job->finished = true;
             running--;
             finished++;
@@ -121,6 +138,17 @@ void povray_jobs_free(struct povray_job *jobs, int count)
 {
     for (int i = 0; i < count; i++)
         buffer_free(&jobs[i].messages);
+}
+
+bool povray_is_other_version(const struct buffer *messages, char version[POVRAY_VERSION_SIZE])
+{
+    static const char banner[] = "Ray Tracer Version ";
+    const char *at = messages->data ? strstr(messages->data, banner) : NULL;
+    if (!at)
+        return false;
+    at += strlen(banner);
+    snprintf(version, POVRAY_VERSION_SIZE, "%.*s", (int)strcspn(at, " \r\n"), at);
+    return strncmp(version, "3.7", 3) || (version[3] >= '0' && version[3] <= '9');
 }
 
 /* A message is wrapped at 80 columns, and its further lines begin with a space. */

@@ -5,15 +5,19 @@
 #include "child.h"
 #include "mem.h"
 
+enum { POVRAY_VERSION_SIZE = 32 };
+
 /* One process. The caller fills the first group and frees the arguments; povray_run does the rest. */
 struct povray_job {
     const char *name;       /* of the pass, for messages */
     const char *folder;     /* where the process runs and writes its image */
     char *const *arguments; /* argv, argv[0] being the program; NULL-terminated */
+    int timeout_s;          /* it is ended when it runs longer; 0: never */
 
     struct child child;
     struct buffer messages; /* standard error */
     double done;            /* 0 to 1 */
+    double end_s;           /* of the monotonic clock; infinite: no timeout */
     bool started, finished;
 };
 
@@ -22,10 +26,14 @@ typedef void povray_progress(void *context, double done);
 
 /* Runs all jobs, `at_once` of them at a time, in their order, with the environment given. When one fails the others are
  * ended, *failed is its index (else -1), its messages are there for povray_error_text, and the result is RESULT_POVRAY
- * with its exit status; RESULT_INTERRUPTED after a signal. No process is left in any case. */
+ * with its exit status; RESULT_POVRAY and -1 when one isn't there or runs into its timeout; RESULT_INTERRUPTED after a
+ * signal. No process is left in any case. */
 MUST_CHECK enum result povray_run(struct povray_job *jobs, int count, int at_once, char *const *environment,
                                   povray_progress *progress, void *context, int *failed, struct error *err);
 void povray_jobs_free(struct povray_job *jobs, int count);
+
+/* Whether the banner among the messages names a version but 3.7, and which. */
+bool povray_is_other_version(const struct buffer *messages, char version[POVRAY_VERSION_SIZE]);
 
 /* The lines of POV-Ray's messages that say what is wrong, in *text (the caller frees it): the wrapped lines joined, banner,
  * options and progress left out. */

@@ -1,15 +1,17 @@
-/* Temporary folders by mkdtemp, removed by a walk that doesn't follow links. */
+/* Temporary folders by mkdtemp, removed by a walk that doesn't follow links and needs no memory: it is also the way out
+ * when there is none. */
 #include "work_folder.h"
 
 #include "mem.h"
 
 #include <dirent.h>
 #include <errno.h>
-#include <ftw.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 static bool is_empty_folder(const char *path)
@@ -57,21 +59,58 @@ enum result work_folder_make(struct work_folder *folder, const char *keep, struc
     return result;
 }
 
-static int remove_entry(const char *path, const struct stat *status, int type, struct FTW *walk)
+static void remove_folder(int parent, const char *name);
+
+/* Removes one entry after another. Reading a folder that changes may pass over some: then it begins again. */
+static void remove_entries(int folder)
 {
-    (void)status;
-    (void)type;
-    (void)walk;
-    remove(path);
-    return 0;
+    _Alignas(struct dirent64) char block[4096];
+    bool removed;
+    do {
+        ssize_t size;
+        removed = false;
+        while ((size = getdents64(folder, block, sizeof block)) > 0)
+            for (ssize_t at = 0; at < size;) {
+                const struct dirent64 *entry = (const void *)(block + at);
+                at += entry->d_reclen;
+                if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, ".."))
+                    continue;
+                if (unlinkat(folder, entry->d_name, 0) == 0)
+                    removed = true;
+                else if (errno == EISDIR)
+                    remove_folder(folder, entry->d_name);
+            }
+    } while (removed && lseek(folder, 0, SEEK_SET) == 0);
 }
 
-void work_folder_remove(struct work_folder *folder)
+static void remove_folder(int parent, const char *name)
 {
-    if (folder->path && !folder->keep)
-        nftw(folder->path, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    int folder = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder >= 0) {
+        remove_entries(folder);
+        close(folder);
+    }
+    unlinkat(parent, name, AT_REMOVEDIR);
+}
+
+enum result work_folder_remove(struct work_folder *folder, struct error *err)
+{
+    enum result result = RESULT_OK;
+    if (folder->path && !folder->keep) {
+        remove_folder(AT_FDCWD, folder->path);
+        if (access(folder->path, F_OK) == 0)
+            result = error_set(err, RESULT_DATA, "%s: the temporary folder can't be removed; remove it yourself",
+                               folder->path);
+    }
     free(folder->path);
     *folder = (struct work_folder){0};
+    return result;
+}
+
+bool work_folder_is_full(const struct work_folder *folder)
+{
+    struct statvfs disk;
+    return statvfs(folder->path, &disk) == 0 && (double)disk.f_bavail * (double)disk.f_frsize < 1e6;
 }
 
 enum result work_folder_add(const struct work_folder *folder, const char *name, struct error *err)

@@ -14,8 +14,12 @@ struct work_folder {
 /* Makes the folder: `keep` (it may exist if it is empty), or with NULL a new one in $TMPDIR or /tmp. */
 MUST_CHECK enum result work_folder_make(struct work_folder *folder, const char *keep, struct error *err);
 
-/* Removes the folder unless it is kept; frees the path. Nothing happens without a folder. */
-void work_folder_remove(struct work_folder *folder);
+/* Removes the folder unless it is kept; frees the path. Nothing happens without a folder. RESULT_DATA where something of
+ * it is left. */
+MUST_CHECK enum result work_folder_remove(struct work_folder *folder, struct error *err);
+
+/* Whether less than 1 MB is left on its disk. */
+bool work_folder_is_full(const struct work_folder *folder);
 
 /* A folder inside it. */
 MUST_CHECK enum result work_folder_add(const struct work_folder *folder, const char *name, struct error *err);

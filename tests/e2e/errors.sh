@@ -211,6 +211,60 @@ check "render to a full disk" \
 check "passes to a full disk" full_disk "${povgloss[@]}" passes scenes/glossy.pov "$library" "${size[@]}" --quiet -o /dev/full
 check "glossfilter to a full disk" full_disk "$bin/glossfilter" passes.exr -o /dev/full --format exr
 
+# on_small_disk KB FOLDER COMMAND...: with a disk of that size at FOLDER, which is left as it is outside; what is in it
+# afterwards is listed in the file `left`.
+on_small_disk() {
+    local size=$1 folder=$2
+    shift 2
+    # shellcheck disable=SC2016 # the inner shell's own
+    unshare -rm bash -c '
+        mount -t tmpfs -o "size=$1k" tmpfs "$2" || exit 99
+        printf "an older picture\n" > output/picture.exr
+        "${@:4}"
+        status=$?
+        find "$2" -mindepth 1 ! -name picture.exr > "$3/left"
+        cp output/picture.exr "$3/picture.exr"
+        exit $status' - "$size" "$folder" "$scratch" "$@"
+}
+# shellcheck disable=SC2015 # neither test has a side effect
+small_disk() {
+    local folder=$1 kb failures=0
+    shift
+    rm -f output/*
+    for kb in 8 16 32 64 128 256 512 1024 2048 4096; do
+        run on_small_disk "$kb" "$folder" timeout 60 "$@"
+        [ ! -s left ] || fail "left on a disk of $kb kB: $(cat left)" || return 1
+        [ "$status" -ne 0 ] || continue
+        failures=$((failures + 1))
+        [[ $status -eq 3 || $status -eq 4 ]] && [ -s "$scratch/err" ] && [ "$(cat picture.exr)" = 'an older picture' ] ||
+            { echo "a disk of $kb kB, exit status $status"; show_run; return 1; }
+        grep -q -e '^[a-z]*: .*No space left' -e '^[a-z]*: .*less than 1 MB is left' "$scratch/err" ||
+            { echo "a disk of $kb kB"; show_run; return 1; }
+    done
+    [ "$status" -eq 0 ] && [ "$failures" -gt 0 ] || { echo "exit status $status, $failures failures"; show_run; return 1; }
+}
+if unshare -rm mount -t tmpfs tmpfs output 2> /dev/null; then
+    check "the temporary folder's disk fills up" small_disk "$TMPDIR" \
+        "${povgloss[@]}" render scenes/glossy.pov "$library" +W160 +H120 -A --quiet -o output/picture.exr
+    check "the output's disk fills up" small_disk "$scratch/output" \
+        "${povgloss[@]}" passes scenes/glossy.pov "$library" +W160 +H120 -A --quiet -o output/picture.exr
+else
+    tests=$((tests + 1))
+    echo "ok $tests - a disk fills up # SKIP no tmpfs can be mounted here"
+fi
+
+# Each writes a file of its own and puts it in place.
+two_at_once() {
+    local render=("${povgloss[@]}" render scenes/glossy.pov "$library" "${size[@]}" --quiet) first second
+    rm -f output/*
+    "${render[@]}" -o expected.exr || return 1
+    "${render[@]}" -o output/picture.exr & first=$!
+    "${render[@]}" -o output/picture.exr & second=$!
+    wait "$first" && wait "$second" && cmp expected.exr output/picture.exr && expect_nothing_left &&
+        [ "$(ls -A output)" = picture.exr ]
+}
+check "two runs with the same output" two_at_once
+
 kept() {
     run "${povgloss[@]}" render scenes/glossy.pov "$library" "${size[@]}" --quiet --keep keep -o output/picture.png
     expect_status 0 && expect_nothing_left && [ -s keep/base/image.exr ] && [ -s keep/copies/plain-000-glossy.pov ]

@@ -14,7 +14,7 @@ head -c 60 good.png > cut.png
 head -c 200 good.exr > cut.exr
 printf 'not an image\n' > text.png
 
-# draw: with a povray whose commands are on standard input; $folder is its pass, $image its image's name.
+# draw OPTION...: with a povray whose commands are on standard input; $folder is its pass, $image its image's name.
 draw() {
     {
         printf '#!/bin/sh\nhere=%q\n' "$scratch"
@@ -28,21 +28,29 @@ SH
     chmod +x fake/povray
     printf 'an older picture\n' > output/picture.png
     run env "PATH=$scratch/fake:$PATH" timeout 60 "$bin/povgloss" render scene.pov "+L$root/povscenes" \
-        -o output/picture.png
+        -o output/picture.png "$@"
 }
 
 # shellcheck disable=SC2015 # neither test has a side effect
 fails() {
-    draw
-    expect_status "$1" && expect_message "$2" && expect_nothing_left || return 1
+    local expected=$1 message=$2
+    shift 2
+    draw "$@"
+    expect_status "$expected" && expect_message "$message" && expect_nothing_left || return 1
     grep -q '^povgloss: ' "$scratch/err" || { show_run; return 1; }
     [ "$(ls -A output)" = picture.png ] && [ "$(cat output/picture.png)" = 'an older picture' ] ||
         fail "written: $(ls -A output)"
 }
 
 works() {
-    draw
+    draw "$@"
     expect_status 0 && expect_nothing_left && oiiotool output/picture.png -o copy.png
+}
+# warns_of_version TEXT: "": there isn't a word of it.
+warns_of_version() {
+    works || return 1
+    if [ -n "$1" ]; then grep -qF "$1" "$scratch/err"; else ! grep -qF 'this is POV-Ray' "$scratch/err"; fi ||
+        { show_run; return 1; }
 }
 check "images of the right kind: the fake is good enough" works <<< 'good'
 check "exit status 1 with a message" fails 4 "Parse Error: Hello" << 'SH'
@@ -104,6 +112,32 @@ SH
 check "messages with bytes of no text" fails 4 "exit status 1" << 'SH'
 head -c 10000 /dev/urandom >&2
 printf '\0\0Parse Error: \377\376\0\n' >&2
+exit 1
+SH
+check "a pass that hangs, with --timeout" fails 4 "longer than 1 s in the reflectance pass" --timeout 1 << 'SH'
+good
+[ "$folder" != reflectance ] || exec sleep 300
+SH
+check "a pass that hangs without standard error, with --timeout" fails 4 "longer than 1 s in the base pass" --timeout 1 << 'SH'
+good
+[ "$folder" != base ] || exec sleep 300 2>&-
+SH
+check "a pass that hangs and takes no SIGTERM, with --timeout" fails 4 "longer than 1 s" --timeout=1 << 'SH'
+trap '' TERM
+good
+exec sleep 300
+SH
+check "a --timeout that is long enough" works --timeout 30 <<< 'good'
+check "POV-Ray 3.8 is drawn with, and warned of" warns_of_version "this is POV-Ray 3.8.0-beta.2: povgloss is made for 3.7" << 'SH'
+echo 'Persistence of Vision(tm) Ray Tracer Version 3.8.0-beta.2 (g++ 12 @' >&2
+good
+SH
+check "POV-Ray 3.7 isn't warned of" warns_of_version "" << 'SH'
+echo 'Persistence of Vision(tm) Ray Tracer Version 3.7.0.10.unofficial (g++ @' >&2
+good
+SH
+check "POV-Ray 3.6 fails, and is named" fails 4 "this is POV-Ray 3.6.1, and povgloss needs 3.7" << 'SH'
+printf 'Persistence of Vision(tm) Ray Tracer Version 3.6.1 (g++)\nFailed to parse command-line option\n' >&2
 exit 1
 SH
 check "standard error closed early, then work" fails 3 "image.exr: cannot be opened" << 'SH'

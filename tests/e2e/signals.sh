@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Interrupted work: the status of a death by that signal, no process and no temporary folder left, an older output untouched.
+# MOMENTS is at how many random moments a render is interrupted, SEED what they are drawn from.
 . tests/e2e/lib.sh
 
 cd "$scratch" || exit 1
@@ -118,6 +119,48 @@ kill_one() {
     grep -q 'exit status 137 in the [a-z-]* pass' err || { cat err; return 1; }
 }
 check "one povray is killed" kill_one
+
+# ---- at any moment
+
+small=("$bin/povgloss" render scene.pov "$library" +W48 +H36 --quiet --format png)
+whole_render_ms() {
+    local began
+    "${small[@]}" -o expected.png || return 1
+    began=$(date +%s%N)
+    "${small[@]}" -o expected.png || return 1
+    echo $((($(date +%s%N) - began) / 1000000))
+}
+
+# The signal may come when all is done: then the picture is the new one.
+interrupt_at_random() {
+    local moment signal number ms left interrupted=0
+    RANDOM=$seed
+    for ((moment = 1; moment <= moments; moment++)); do
+        ms=$((RANDOM % (whole_ms + whole_ms / 8 + 1))) signal=$((RANDOM % 3))
+        number=$(set -- 2 15 1; shift "$signal"; echo "$1")
+        start "${small[@]}" -o output/picture.png
+        sleep "$(printf '%d.%03d' $((ms / 1000)) $((ms % 1000)))"
+        kill "-$number" "$started" 2> /dev/null
+        finish 9 || return 1
+        if [ "$status" -eq 0 ]; then
+            cmp output/picture.png expected.png || return 1
+        else
+            interrupted=$((interrupted + 1))
+            expect_status $((128 + number)) && [ "$(cat output/picture.png)" = 'an older picture' ] || {
+                echo "signal $number after $ms ms, moment $moment of seed $seed"
+                return 1
+            }
+        fi
+        left=$(ls -A "$TMPDIR" output | grep -vx -e picture.png -e '.*:' -e '')
+        [ -z "$left" ] || fail "left: $left; signal $number after $ms ms, moment $moment of seed $seed" || return 1
+    done
+    [ -z "$(find . -name '*.pov-state')" ] || fail "left: $(find . -name '*.pov-state')" || return 1
+    [ "$interrupted" -gt 0 ] || fail "no render was interrupted" || return 1
+    expect_nothing_left
+}
+moments=${MOMENTS:-20} seed=${SEED:-$$}
+whole_ms=$(whole_render_ms)
+check "a signal at $moments random moments of $whole_ms ms, seed $seed" interrupt_at_random
 
 # ---- glossfilter, and the filter of povgloss
 

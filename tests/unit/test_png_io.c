@@ -311,6 +311,17 @@ static void png_read__huge_size_in_the_header__refused(void **state)
     }
 }
 
+/* One row more than so few bytes can hold. */
+static void png_read__more_pixels_than_deflate_can_hold__refused_without_the_memory(void **state)
+{
+    (void)state;
+    static const unsigned char header[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R',
+                                           0, 0, 0xff, 0xff, 0, 0, 0xff, 0xff, 8, 2, 0, 0, 0, 0x39, 0x67, 0x4e, 0x07,
+                                           0, 0, 0, 0, 'I', 'D', 'A', 'T', 0x35, 0xaf, 0x06, 0x1e};
+    write_bytes(in_scratch("bomb.png"), header, sizeof header);
+    assert_refused("bomb.png", "so few bytes");
+}
+
 static void png_write_srgb__output_fails__says_why_and_leaves_nothing(void **state)
 {
     (void)state;
@@ -340,6 +351,7 @@ int main(void)
         cmocka_unit_test(png_read__not_a_png__says_so),
         cmocka_unit_test(png_read__cut_or_damaged_anywhere__refused_or_read),
         cmocka_unit_test(png_read__huge_size_in_the_header__refused),
+        cmocka_unit_test(png_read__more_pixels_than_deflate_can_hold__refused_without_the_memory),
         cmocka_unit_test(png_write_srgb__output_fails__says_why_and_leaves_nothing),
     };
     return cmocka_run_group_tests_name("png_io", tests, scratch_setup, scratch_teardown);

@@ -32,8 +32,8 @@ static void make__temporary__absolute_private_and_new(void **state)
     assert_int_equal(stat(one.path, &status), 0);
     assert_int_equal(status.st_mode & 0777, 0700);
     assert_int_equal(scratch_entries(), 2);
-    work_folder_remove(&one);
-    work_folder_remove(&two);
+    assert_ok(work_folder_remove(&one, &err), err);
+    assert_ok(work_folder_remove(&two, &err), err);
     assert_null(one.path);
     assert_int_equal(scratch_entries(), 0);
 }
@@ -52,7 +52,7 @@ static void make__no_or_empty_tmpdir__in_tmp(void **state)
         char *tmp = realpath("/tmp", NULL);
         assert_memory_equal(folder.path, tmp, strlen(tmp));
         free(tmp);
-        work_folder_remove(&folder);
+        assert_ok(work_folder_remove(&folder, &err), err);
     }
 }
 
@@ -70,7 +70,7 @@ static void make__relative_tmpdir__absolute_path(void **state)
     free(here);
     assert_ok(result, err);
     assert_memory_equal(folder.path, scratch, strlen(scratch));
-    work_folder_remove(&folder);
+    assert_ok(work_folder_remove(&folder, &err), err);
     assert_int_equal(scratch_entries(), 0);
 }
 
@@ -85,7 +85,7 @@ static void make__missing_tmpdir__named_with_the_cure(void **state)
     assert_contains(err.text, "TMPDIR");
     assert_contains(err.text, strerror(ENOENT));
     assert_null(folder.path);
-    work_folder_remove(&folder);
+    assert_ok(work_folder_remove(&folder, &err), err);
 }
 
 static void remove__deep_content__all_gone_but_link_targets(void **state)
@@ -104,7 +104,7 @@ static void remove__deep_content__all_gone_but_link_targets(void **state)
     write_bytes(path, "x", 1);
     assert_ok(work_folder_link(&folder, "lib0", in_scratch("outside"), &err), err);
     assert_ok(work_folder_link(&folder, "a/dangling", "/nonexistent", &err), err);
-    work_folder_remove(&folder);
+    assert_ok(work_folder_remove(&folder, &err), err);
     assert_int_equal(scratch_entries(), 1);
     assert_int_equal(access(in_scratch("outside/file"), F_OK), 0);
     assert_int_equal(unlink(in_scratch("outside/file")), 0);
@@ -115,8 +115,9 @@ static void remove__no_folder__nothing_happens(void **state)
 {
     (void)state;
     struct work_folder folder = {0};
-    work_folder_remove(&folder);
-    work_folder_remove(&folder);
+    struct error err;
+    assert_ok(work_folder_remove(&folder, &err), err);
+    assert_ok(work_folder_remove(&folder, &err), err);
     assert_null(folder.path);
 }
 
@@ -131,7 +132,7 @@ static void keep__new_or_empty_folder__stays_after_remove(void **state)
         assert_ok(work_folder_make(&folder, in_scratch("kept"), &err), err);
         assert_string_equal(folder.path, in_scratch("kept"));
         assert_ok(work_folder_add(&folder, "base", &err), err);
-        work_folder_remove(&folder);
+        assert_ok(work_folder_remove(&folder, &err), err);
         assert_null(folder.path);
         assert_true(is_folder(in_scratch("kept/base")));
         assert_int_equal(rmdir(in_scratch("kept/base")), 0);
@@ -149,7 +150,7 @@ static void keep__folder_with_a_file__refused_and_untouched(void **state)
     assert_int_equal(work_folder_make(&folder, in_scratch("full-folder"), &err), RESULT_DATA);
     assert_contains(err.text, in_scratch("full-folder"));
     assert_contains(err.text, strerror(ENOTEMPTY));
-    work_folder_remove(&folder);
+    assert_ok(work_folder_remove(&folder, &err), err);
     assert_int_equal(access(in_scratch("full-folder/file"), F_OK), 0);
     unlink(in_scratch("full-folder/file"));
     rmdir(in_scratch("full-folder"));
@@ -193,7 +194,7 @@ static void add_and_link__name_taken__refused_with_the_path(void **state)
     assert_true(length > 0);
     target[length] = 0;
     assert_string_equal(target, "/some/where with = and \"");
-    work_folder_remove(&folder);
+    assert_ok(work_folder_remove(&folder, &err), err);
     assert_int_equal(scratch_entries(), 0);
 }
 
