@@ -5,6 +5,7 @@
 #include "image.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 enum { EXR_NAME_SIZE = 256 };
 
@@ -22,14 +23,25 @@ struct exr_attributes {
     float working_gamma; /* povgloss:workingGamma; 0: absent */
 };
 
+/* The picture (displayWindow) in pixels of the image (dataWindow): parts of it may lie outside, and of the image, too. */
+struct exr_window {
+    int64_t left, top;
+    int width, height;
+};
+
 /* What was read: channel i has the name names[i] and is plane i of the image. */
 struct exr_contents {
     struct image image;
+    struct exr_window window;
     char (*names)[EXR_NAME_SIZE];
     struct exr_attributes attributes;
 };
 
-/* Reads every channel of a scanline or tiled single-part file, half, float or uint, as floats. "-": standard input. */
+/* Reads every channel of a scanline or tiled file, half, float or uint, as floats. "-": standard input.
+ *
+ * The parts of a multi-part file are joined: the image holds all their data windows, and is 0 where a part has no
+ * pixels. A channel is named "part.channel", unless its own name begins with its part's already; parts that
+ * OpenImageIO numbered ("subimage01") count as nameless. An attribute is that of the first part that has it. */
 MUST_CHECK enum result exr_read(const char *path, struct exr_contents *contents, struct error *err);
 void exr_contents_free(struct exr_contents *contents);
 
