@@ -209,7 +209,7 @@ static int max_int(int a, int b)
 
 /* The image is what holds the data windows of all parts. Its memory, and the picture's, is checked before anything is
  * allocated. */
-static enum result place_parts(struct reader *reader, struct exr_window *window, struct error *err)
+static enum result place_parts(struct reader *reader, struct image_window *window, struct error *err)
 {
     int left = reader->parts[0].left, top = reader->parts[0].top;
     int64_t right = 0, bottom = 0, channels = 0;
@@ -245,10 +245,10 @@ static enum result place_parts(struct reader *reader, struct exr_window *window,
     result = check_size(reader->name, display_width, display_height, err);
     if (result)
         return result;
-    *window = (struct exr_window){.left = (int64_t)display.min.x - left,
-                                  .top = (int64_t)display.min.y - top,
-                                  .width = (int)display_width,
-                                  .height = (int)display_height};
+    *window = (struct image_window){.left = (int64_t)display.min.x - left,
+                                    .top = (int64_t)display.min.y - top,
+                                    .width = (int)display_width,
+                                    .height = (int)display_height};
     double data_bytes = (double)sizeof(float) * reader->width * reader->height * reader->channels;
     double display_bytes = (double)sizeof(float) * window->width * window->height * 3;
     if (data_bytes + display_bytes > input_memory_limit())

@@ -5,7 +5,6 @@
 #include "image.h"
 
 #include <stdbool.h>
-#include <stdint.h>
 
 enum { EXR_NAME_SIZE = 256 };
 
@@ -23,16 +22,10 @@ struct exr_attributes {
     float working_gamma; /* povgloss:workingGamma; 0: absent */
 };
 
-/* The picture (displayWindow) in pixels of the image (dataWindow): parts of it may lie outside, and of the image, too. */
-struct exr_window {
-    int64_t left, top;
-    int width, height;
-};
-
 /* What was read: channel i has the name names[i] and is plane i of the image. */
 struct exr_contents {
-    struct image image;
-    struct exr_window window;
+    struct image image;          /* the data window */
+    struct image_window window;  /* the display window in it */
     char (*names)[EXR_NAME_SIZE];
     struct exr_attributes attributes;
 };
