@@ -26,7 +26,7 @@ LDFLAGS += -fsanitize=$(SANITIZE)
 endif
 
 PACKAGES := gcc binutils make libc6-dev pkg-config povray povray-includes povray-examples libopenexr-dev libpng-dev \
-            libcmocka-dev openimageio-tools openexr mandoc dpkg-dev perl coreutils findutils
+            libcmocka-dev openimageio-tools openexr mandoc dpkg-dev python3-venv perl coreutils findutils
 
 PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(wildcard src/main_*.c))
 # The kernel is compiled once per instruction set from one source.
@@ -122,6 +122,14 @@ deps: ## install the Debian packages that building and testing need (apt-get, th
 	    $$sudo apt-get update -qq && \
 	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing; \
 	fi
+
+# Its test is skipped where it isn't installed.
+.PHONY: mitsuba
+mitsuba: build/mitsuba/bin/python ## install Mitsuba 3 in build/mitsuba, for the test of scripts/mitsuba_passes.py
+
+build/mitsuba/bin/python:
+	python3 -m venv build/mitsuba
+	build/mitsuba/bin/pip install -q --disable-pip-version-check mitsuba numpy || { rm -rf build/mitsuba; exit 1; }
 
 .PHONY: demo
 demo: build/demo.png ## render the demo scene

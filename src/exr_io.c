@@ -417,6 +417,11 @@ static enum result read_float_attribute(const struct part *part, const char *att
     bool found;
     float stored = 0;
     exr_result_t code = exr_attr_get_float(part->context, part->index, attribute, &stored);
+    double wide;
+    if (code == EXR_ERR_ATTR_TYPE_MISMATCH && !exr_attr_get_double(part->context, part->index, attribute, &wide)) {
+        stored = (float)wide;
+        code = EXR_ERR_SUCCESS;
+    }
     enum result result = attribute_result(part, attribute, "float", code, &found, err);
     if (found)
         *value = stored;

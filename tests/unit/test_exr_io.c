@@ -515,6 +515,42 @@ static void exr_read__attributes_of_a_later_part__found(void **state)
     image_free(&image);
 }
 
+/* Mitsuba writes its floats so. */
+static void exr_read__double_attribute__as_float(void **state)
+{
+    (void)state;
+    struct exr_contents contents;
+    struct error err;
+    static const char before[] = "povgloss:viewAngle\0float\0\4\0\0\0";
+    enum { NAME = 19, MORE = 1 + 4 }; /* a letter of the type's name, and bytes of its value */
+    struct image image;
+    size_t size, chunk = 0;
+    const double angle = 0.75;
+    make_image(&image, 5, 4, 1);
+    write_planes(in_scratch("t.exr"), &image, &(struct exr_attributes){.view_angle = 0.5f});
+    unsigned char *data = read_bytes(in_scratch("t.exr"), &size);
+    size_t at = find_bytes(data, size, before, sizeof before - 1);
+    unsigned char *wide = calloc(size + MORE, 1);
+    assert_non_null(wide);
+    memcpy(wide, data, at + NAME);
+    memcpy(wide + at + NAME, "double\0\10\0\0", 11);
+    memcpy(wide + at + NAME + 11, &angle, sizeof angle);
+    memcpy(wide + at + NAME + 19, data + at + sizeof before - 1 + 4, size - (at + sizeof before - 1 + 4));
+    /* The table of the one chunk's place lies right before the chunk. */
+    for (size_t i = at; i + 8 < size && !chunk; i++)
+        if (get(data + i, 4) == i + 8 && get(data + i + 4, 4) == 0)
+            chunk = i + 8;
+    put(wide + chunk - 8 + MORE, (uint32_t)chunk + MORE, 4);
+    write_bytes(in_scratch("double.exr"), wide, size + MORE);
+    free(data);
+    free(wide);
+    image_free(&image);
+    assert_contains(run("exrheader double.exr"), "povgloss:viewAngle (type double)");
+    assert_ok(exr_read(in_scratch("double.exr"), &contents, &err), err);
+    assert_near(contents.attributes.view_angle, 0.75, 0);
+    exr_contents_free(&contents);
+}
+
 static void exr_read__display_window_of_any_size__refused_where_too_large(void **state)
 {
     (void)state;
@@ -744,6 +780,7 @@ int main(void)
         cmocka_unit_test(exr_read__two_channels_of_one_name__refused_with_a_cure_that_works),
         cmocka_unit_test(exr_read__parts_of_several_windows__all_in_one_image),
         cmocka_unit_test(exr_read__attributes_of_a_later_part__found),
+        cmocka_unit_test(exr_read__double_attribute__as_float),
         cmocka_unit_test(exr_read__display_window_of_any_size__refused_where_too_large),
         cmocka_unit_test(exr_read__subsampled_channel__refused_by_name),
         cmocka_unit_test(exr_read__header_of_a_huge_image__refused_without_the_memory),
