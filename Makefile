@@ -26,17 +26,24 @@ LDFLAGS += -fsanitize=$(SANITIZE)
 endif
 
 PACKAGES := gcc binutils make libc6-dev pkg-config povray povray-includes povray-examples libopenexr-dev libpng-dev \
-            libcmocka-dev openimageio-tools perl coreutils findutils
+            libcmocka-dev openimageio-tools openexr mandoc dpkg-dev python3-venv perl coreutils findutils
 
 PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(wildcard src/main_*.c))
 # The kernel is compiled once per instruction set from one source.
 ISAS := sse2 avx2 avx512
 KERNEL_OBJECTS := $(ISAS:%=$(BUILD)/obj/filter_kernel_%.o)
 # Loaded into POV-Ray for --depfile.
-PRELOAD := $(BUILD)/lib/povgloss_reads.so
+PRELOAD := $(BUILD)/lib/povgloss/reads.so
 LIB_SOURCES := $(filter-out src/main_%.c src/filter_kernel.c src/preload_reads.c,$(wildcard src/*.c))
 LIB_OBJECTS := $(LIB_SOURCES:src/%.c=$(BUILD)/obj/%.o) $(if $(wildcard src/filter_kernel.c),$(KERNEL_OBJECTS))
 LIBRARY := $(BUILD)/libgloss.a
+# What is installed of it has one function, and no other name that could meet a user's.
+PUBLIC_LIBRARY := $(BUILD)/lib/libgloss.a
+# Found by the programs from the folder that they are in, here and installed.
+INCLUDE := $(BUILD)/share/povgloss/include/povgloss.inc
+
+PREFIX ?= /usr/local
+DESTDIR ?=
 UNIT_TESTS := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/test_*.c))
 
 TOOLS := $(patsubst tests/tools/%.c,$(BUILD)/tests/tools/%,$(filter-out tests/tools/preload_%,$(wildcard tests/tools/*.c)))
@@ -49,7 +56,7 @@ FUZZ_SECONDS := 60
 SCENES := $(patsubst povscenes/%.pov,build/scenes/%.png,$(wildcard povscenes/*.pov))
 
 .PHONY: all
-all: $(PROGRAMS) $(PRELOAD) ## the programs povgloss and glossfilter, in build/bin
+all: $(PROGRAMS) $(PRELOAD) $(INCLUDE) $(PUBLIC_LIBRARY) ## the programs povgloss and glossfilter, in build/bin
 
 $(BUILD)/obj/filter_kernel_sse2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=sse2
 $(BUILD)/obj/filter_kernel_avx2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=avx2 -mavx2
@@ -83,6 +90,17 @@ $(PRELOAD) $(BUILD)/tests/tools/faults.so: $(FLAGS_STAMP)
 $(LIBRARY): $(LIB_OBJECTS)
 	rm -f $@
 	$(AR) rcs $@ $^
+
+$(PUBLIC_LIBRARY): $(LIBRARY)
+	@mkdir -p $(@D)
+	rm -f $@
+	$(LD) -r -u gloss_filter -o $(BUILD)/obj/gloss_public.o $<
+	objcopy --keep-global-symbol=gloss_filter $(BUILD)/obj/gloss_public.o
+	$(AR) rcs $@ $(BUILD)/obj/gloss_public.o
+
+$(INCLUDE): povscenes/povgloss.inc
+	@mkdir -p $(@D)
+	cp $< $@
 
 $(BUILD)/bin/%: $(BUILD)/obj/main_%.o $(LIBRARY)
 	@mkdir -p $(@D)
@@ -123,6 +141,14 @@ deps: ## install the Debian packages that building and testing need (apt-get, th
 	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing; \
 	fi
 
+# Its test is skipped where it isn't installed.
+.PHONY: mitsuba
+mitsuba: build/mitsuba/bin/python ## install Mitsuba 3 in build/mitsuba, for the test of scripts/mitsuba_passes.py
+
+build/mitsuba/bin/python:
+	python3 -m venv build/mitsuba
+	build/mitsuba/bin/pip install -q --disable-pip-version-check mitsuba numpy || { rm -rf build/mitsuba; exit 1; }
+
 .PHONY: demo
 demo: build/demo.png ## render the demo scene
 	@echo "The picture is build/demo.png"
@@ -161,7 +187,7 @@ build/figures/figures.png: $(FIGURES)
 	oiiotool $^ --mosaic:pad=8 3x1 -o $@
 
 .PHONY: check
-check: $(PROGRAMS) $(PRELOAD) $(UNIT_TESTS) $(TOOLS) $(FUZZ_REPLAYS) ## all tests; SANITIZE=address,undefined tests a sanitized build
+check: all $(UNIT_TESTS) $(TOOLS) $(FUZZ_REPLAYS) ## all tests; SANITIZE=address,undefined tests a sanitized build
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools CC=$(CC) scripts/check.sh $(UNIT_TESTS)
 
 .PHONY: faults
@@ -186,6 +212,44 @@ run-fuzzers: $(FUZZERS)
 .PHONY: corpus
 corpus: $(PROGRAMS) ## run every scene of povray-examples as it is; the table is docs/corpus.md
 	BIN=$(BUILD)/bin OUT=$(BUILD)/corpus REPORT=docs/corpus.md scripts/corpus.sh
+
+# What is installed, by the folder under PREFIX.
+INSTALLED_bin := $(PROGRAMS)
+INSTALLED_lib := $(PUBLIC_LIBRARY)
+INSTALLED_lib/povgloss := $(PRELOAD)
+INSTALLED_lib/pkgconfig := $(BUILD)/lib/pkgconfig/libgloss.pc
+INSTALLED_include := src/gloss.h
+INSTALLED_share/povgloss/include := $(INCLUDE)
+INSTALLED_share/man/man1 := $(wildcard man/*.1)
+INSTALLED_share/man/man5 := $(wildcard man/*.5)
+INSTALLED_share/bash-completion/completions := $(wildcard completions/*)
+INSTALL_FOLDERS := $(patsubst INSTALLED_%,%,$(filter INSTALLED_%,$(.VARIABLES)))
+
+.PHONY: $(BUILD)/lib/pkgconfig/libgloss.pc
+$(BUILD)/lib/pkgconfig/libgloss.pc:
+	@mkdir -p $(@D)
+	@printf '%s\n' 'prefix=$(PREFIX)' 'libdir=$${prefix}/lib' 'includedir=$${prefix}/include' '' 'Name: libgloss' \
+	    'Description: Glossy reflections from planes of floats' 'Version: $(VERSION)' 'Cflags: -I$${includedir}' \
+	    'Libs: -L$${libdir} -lgloss -lm -pthread' > $@
+
+.PHONY: install
+install: all $(INSTALLED_lib/pkgconfig) ## install below PREFIX (/usr/local); DESTDIR goes before it
+	@set -e; $(foreach folder,$(INSTALL_FOLDERS), \
+	    install -d "$(DESTDIR)$(PREFIX)/$(folder)"; \
+	    install -m $(if $(filter bin,$(folder)),755,644) $(INSTALLED_$(folder)) "$(DESTDIR)$(PREFIX)/$(folder)";)
+	@echo "Installed below $(DESTDIR)$(PREFIX)"
+
+.PHONY: uninstall
+uninstall: ## remove what install put below PREFIX
+	@rm -f $(foreach folder,$(INSTALL_FOLDERS), \
+	    $(patsubst %,"$(DESTDIR)$(PREFIX)/$(folder)/%",$(notdir $(INSTALLED_$(folder)))))
+	@for folder in lib/povgloss share/povgloss/include share/povgloss; do \
+	    [ ! -d "$(DESTDIR)$(PREFIX)/$$folder" ] || rmdir "$(DESTDIR)$(PREFIX)/$$folder"; \
+	done
+
+.PHONY: deb
+deb: $(PROGRAMS) ## a Debian package in build/
+	scripts/deb.sh $(VERSION) $(BUILD)
 
 .PHONY: clean
 clean: ## remove everything that make built

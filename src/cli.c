@@ -5,6 +5,7 @@
  */
 #include "cli.h"
 
+#include "channels.h"
 #include "compose.h"
 #include "lobe.h"
 
@@ -320,6 +321,9 @@ enum result cli_draw(const char *path, const struct cli_filter *options, const s
     enum result result = filter_glossy(gbuffer, &options->filter, &glossy, &radius, err);
     if (result == RESULT_OK)
         result = compose(gbuffer, &glossy, &image, err);
+    struct image *const images[] = {&image, &glossy, &radius};
+    for (int i = 0; i < 3 && result == RESULT_OK && gbuffer->window.width > 0; i++)
+        result = image_crop(images[i], &gbuffer->window, err);
     if (result == RESULT_OK)
         result = write_picture(path, options, &image, &glossy, &radius, err);
     image_free(&glossy);
@@ -333,8 +337,10 @@ static enum result glossfilter_option(int argc, char **argv, int *index, struct 
                                       struct error *err)
 {
     const char *argument = argv[*index], *value;
-    if (is(argument, "-h") || is(argument, "--help") || is(argument, "--version")) {
-        *(is(argument, "--version") ? &command->version : &command->help) = true;
+    if (is(argument, "-h") || is(argument, "--help") || is(argument, "--version") || is(argument, "--check")) {
+        *(is(argument, "--check")     ? &command->check
+          : is(argument, "--version") ? &command->version
+                                      : &command->help) = true;
         *index += 1;
         return RESULT_OK;
     }
@@ -345,6 +351,13 @@ static enum result glossfilter_option(int argc, char **argv, int *index, struct 
         command->output = value;
         return result;
     }
+    result = cli_value(argc, argv, index, "--map", &value, err);
+    if (result == RESULT_OK && value)
+        result = channels_check_map(value, err);
+    if (result == RESULT_OK && value)
+        return text_list_add(&command->map, err, "%s", value);
+    if (result != RESULT_OK)
+        return result;
     bool taken;
     result = cli_filter_option(argc, argv, index, &command->options, &taken, err);
     if (result == RESULT_OK && !taken)
@@ -374,6 +387,10 @@ enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *comma
         return RESULT_OK;
     if (!command->input)
         return error_set(err, RESULT_USAGE, "no passes file: glossfilter PASSES.exr -o OUT.exr; see --help");
+    if (command->check && command->output)
+        return error_set(err, RESULT_USAGE, "--check only looks at the passes: leave out -o");
+    if (command->check)
+        return RESULT_OK;
     if (!command->output)
         return error_set(err, RESULT_USAGE, "no output: say where with -o FILE; see --help");
     return cli_check_output(command->output, &command->options, err);

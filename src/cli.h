@@ -7,6 +7,7 @@
 
 #include "filter.h"
 #include "image_file.h"
+#include "mem.h"
 
 #include <stdbool.h>
 
@@ -55,7 +56,8 @@ MUST_CHECK enum result cli_check_output(const char *path, const struct cli_filte
 struct cli_glossfilter {
     struct cli_filter options;
     const char *input, *output;
-    bool help, version;
+    struct text_list map; /* CHANNEL=NAME; the caller frees it */
+    bool check, help, version;
 };
 
 MUST_CHECK enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *command, struct error *err);

@@ -14,6 +14,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,7 +22,7 @@
 static const double max_bytes_per_byte = 2 * 1032;
 
 /* zlib's level 2 takes 0.6 of the default level's time, for a passes file 6 % larger. */
-enum { MAX_CHANNELS = 1024, MAX_JOINS = 64, SHORT_NAME_LENGTH = 31, ZIP_LEVEL = 2 };
+enum { MAX_CHANNELS = 1024, SHORT_NAME_LENGTH = 31, ZIP_LEVEL = 2 };
 
 static const char eye_name[] = "povgloss:eye";
 static const char view_angle_name[] = "povgloss:viewAngle";
@@ -81,30 +82,43 @@ static int64_t memory_size(exr_const_context_t context, void *user_data)
     return (int64_t)file->size;
 }
 
+/* A part of a file that is being read. */
+struct part {
+    exr_context_t context;
+    const char *name; /* of the file, for messages */
+    int index;
+    bool tiled;
+    int left, top, width, height;      /* the data window */
+    int32_t block_width, block_height; /* of a tile, or of a chunk of scanlines */
+    const exr_attr_chlist_t *channels;
+    int first_plane; /* of the image: that of the part's first channel */
+    int x, y;        /* of the image: where the part's first pixel goes */
+};
+
 /* A file that is being read. */
 struct reader {
     exr_context_t context;
     const char *name; /* for messages */
     size_t file_size; /* bytes */
-    bool tiled;
-    int left, top, width, height;    /* the data window */
-    int32_t block_width, block_height; /* of a tile, or of a chunk of scanlines */
+    struct part *parts;
+    int part_count;
+    int width, height, channels; /* of the image */
 };
 
-static enum result damaged(const struct reader *reader, exr_result_t code, struct error *err)
+static enum result damaged(const char *name, exr_result_t code, struct error *err)
 {
     if (is_memory(code))
         return error_memory(err, (double)bytes_lacking);
-    return error_set(err, RESULT_DATA, "%s: the OpenEXR file is damaged or cut short (%s)", reader->name,
+    return error_set(err, RESULT_DATA, "%s: the OpenEXR file is damaged or cut short (%s)", name,
                      exr_get_default_error_message(code));
 }
 
-static enum result check_compression(const struct reader *reader, struct error *err)
+static enum result check_compression(const struct part *part, struct error *err)
 {
     exr_compression_t compression;
-    exr_result_t code = exr_get_compression(reader->context, 0, &compression);
+    exr_result_t code = exr_get_compression(part->context, part->index, &compression);
     if (code)
-        return damaged(reader, code, err);
+        return damaged(part->name, code, err);
     const char *refused = NULL;
     switch (compression) {
     case EXR_COMPRESSION_NONE:
@@ -123,154 +137,267 @@ static enum result check_compression(const struct reader *reader, struct error *
         return error_set(err, RESULT_DATA,
                          "%s: its compression is %s, which is not supported; convert it: "
                          "oiiotool in.exr --compression zip -o out.exr",
-                         reader->name, refused);
+                         part->name, refused);
     return RESULT_OK;
 }
 
-static enum result check_parts(const struct reader *reader, struct error *err)
+static enum result check_storage(struct part *part, struct error *err)
 {
-    int parts;
-    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
-    exr_result_t code = exr_get_count(reader->context, &parts);
-    if (!code)
-        code = exr_get_storage(reader->context, 0, &storage);
+    exr_storage_t storage;
+    exr_result_t code = exr_get_storage(part->context, part->index, &storage);
     if (code)
-        return damaged(reader, code, err);
-    if (parts > 1) {
-        static const char join[] = " --chappend";
-        char joins[sizeof join * MAX_JOINS] = "";
-        for (int i = 1; i < parts && i < MAX_JOINS; i++)
-            strcat(joins, join);
-        return error_set(err, RESULT_DATA,
-                         "%s: has %d parts, and only one is read; join them: "
-                         "oiiotool in.exr --sisplit%s --compression zip -o out.exr",
-                         reader->name, parts, joins);
-    }
+        return damaged(part->name, code, err);
     if (storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED)
         return error_set(err, RESULT_DATA,
-                         "%s: holds deep data; flatten it: oiiotool in.exr --flatten --compression zip -o out.exr",
-                         reader->name);
+                         "%s: holds deep data; flatten it: oiiotool in.exr -a --flatten --compression zip -o out.exr",
+                         part->name);
+    part->tiled = storage == EXR_STORAGE_TILED;
+    return RESULT_OK;
+}
+
+static enum result check_size(const char *name, int64_t width, int64_t height, struct error *err)
+{
+    if (width < 1 || height < 1 || width > IMAGE_MAX_SIDE || height > IMAGE_MAX_SIDE)
+        return error_set(err, RESULT_DATA, "%s: an image of %lld x %lld pixels: each side must be from 1 to %d", name,
+                         (long long)width, (long long)height, IMAGE_MAX_SIDE);
     return RESULT_OK;
 }
 
 /* Size, place and kind of the blocks. */
-static enum result read_geometry(struct reader *reader, struct error *err)
+static enum result read_geometry(struct part *part, struct error *err)
 {
     exr_attr_box2i_t window;
-    exr_storage_t storage;
-    exr_result_t code = exr_get_data_window(reader->context, 0, &window);
-    if (!code)
-        code = exr_get_storage(reader->context, 0, &storage);
+    exr_result_t code = exr_get_data_window(part->context, part->index, &window);
     if (code)
-        return damaged(reader, code, err);
-    int64_t width = (int64_t)window.max.x - window.min.x + 1;
-    int64_t height = (int64_t)window.max.y - window.min.y + 1;
-    if (width < 1 || height < 1 || width > IMAGE_MAX_SIDE || height > IMAGE_MAX_SIDE)
-        return error_set(err, RESULT_DATA, "%s: an image of %lld x %lld pixels: each side must be from 1 to %d",
-                         reader->name, (long long)width, (long long)height, IMAGE_MAX_SIDE);
-    reader->left = window.min.x;
-    reader->top = window.min.y;
-    reader->width = (int)width;
-    reader->height = (int)height;
-    reader->tiled = storage == EXR_STORAGE_TILED;
-    reader->block_width = reader->width;
-    code = reader->tiled
-               ? exr_get_tile_sizes(reader->context, 0, 0, 0, &reader->block_width, &reader->block_height)
-               : exr_get_scanlines_per_chunk(reader->context, 0, &reader->block_height);
-    if (!code && (reader->block_width < 1 || reader->block_height < 1))
+        return damaged(part->name, code, err);
+    int64_t width = (int64_t)window.max.x - window.min.x + 1, height = (int64_t)window.max.y - window.min.y + 1;
+    enum result result = check_size(part->name, width, height, err);
+    if (result)
+        return result;
+    part->left = window.min.x;
+    part->top = window.min.y;
+    part->width = (int)width;
+    part->height = (int)height;
+    part->block_width = part->width;
+    code = part->tiled
+               ? exr_get_tile_sizes(part->context, part->index, 0, 0, &part->block_width, &part->block_height)
+               : exr_get_scanlines_per_chunk(part->context, part->index, &part->block_height);
+    if (!code && (part->block_width < 1 || part->block_height < 1))
         code = EXR_ERR_INVALID_ATTR;
-    return code ? damaged(reader, code, err) : RESULT_OK;
+    return code ? damaged(part->name, code, err) : RESULT_OK;
 }
 
-/* Names of the channels; the image's memory is checked before anything is allocated. */
-static enum result read_channel_list(const struct reader *reader, struct exr_contents *contents, int *channel_count,
-                                     struct error *err)
+static enum result check_channels(struct part *part, struct error *err)
 {
-    const exr_attr_chlist_t *list;
-    exr_result_t code = exr_get_channels(reader->context, 0, &list);
+    exr_result_t code = exr_get_channels(part->context, part->index, &part->channels);
     if (code)
-        return damaged(reader, code, err);
-    int channels = list->num_channels;
-    if (channels < 1 || channels > MAX_CHANNELS)
-        return error_set(err, RESULT_DATA, "%s: has %d channels; from 1 to %d are read", reader->name,
-                         channels, MAX_CHANNELS);
-    double bytes = (double)sizeof(float) * reader->width * reader->height * channels;
-    if (bytes > max_bytes_per_byte * (double)reader->file_size)
-        return error_set(err, RESULT_DATA,
-                         "%s: the OpenEXR file is damaged or cut short (%d x %d pixels of %d channels can't be in %zu "
-                         "bytes)",
-                         reader->name, reader->width, reader->height, channels, reader->file_size);
-    if (bytes > input_memory_limit())
-        return error_set(err, RESULT_DATA,
-                         "%s: %d x %d pixels of %d channels take %.1f GB, more than half of this machine's memory; "
-                         "write fewer channels or a smaller image",
-                         reader->name, reader->width, reader->height, channels, bytes / 1e9);
-    for (int i = 0; i < channels; i++) {
-        const exr_attr_chlist_entry_t *entry = &list->entries[i];
+        return damaged(part->name, code, err);
+    for (int i = 0; i < part->channels->num_channels; i++) {
+        const exr_attr_chlist_entry_t *entry = &part->channels->entries[i];
         if (entry->x_sampling != 1 || entry->y_sampling != 1)
             return error_set(err, RESULT_DATA,
                              "%s: channel %s is subsampled (%d x %d), which is not supported; "
                              "write it at full resolution",
-                             reader->name, entry->name.str, entry->x_sampling, entry->y_sampling);
+                             part->name, entry->name.str, entry->x_sampling, entry->y_sampling);
         if (entry->name.length < 1 || entry->name.length >= EXR_NAME_SIZE)
-            return damaged(reader, EXR_ERR_NAME_TOO_LONG, err);
+            return damaged(part->name, EXR_ERR_NAME_TOO_LONG, err);
     }
-    contents->names = calloc((size_t)channels, sizeof *contents->names);
-    if (!contents->names)
-        return error_memory(err, (double)channels * (double)sizeof *contents->names);
-    for (int i = 0; i < channels; i++)
-        memcpy(contents->names[i], list->entries[i].name.str, (size_t)list->entries[i].name.length);
-    *channel_count = channels;
     return RESULT_OK;
 }
 
-/* The chunk whose first pixel is (x, y) of the image. OpenEXRCore 3.1 takes an uncompressed chunk of any size, and what
- * is missing of it would be whatever the memory held. */
-static exr_result_t find_chunk(const struct reader *reader, int x, int y, exr_chunk_info_t *chunk)
+static enum result read_part_headers(struct reader *reader, struct error *err)
 {
-    exr_result_t code = reader->tiled ? exr_read_tile_chunk_info(reader->context, 0, x / reader->block_width,
-                                                                 y / reader->block_height, 0, 0, chunk)
-                                      : exr_read_scanline_chunk_info(reader->context, 0, reader->top + y, chunk);
+    exr_result_t code = exr_get_count(reader->context, &reader->part_count);
+    if (!code && reader->part_count < 1)
+        code = EXR_ERR_MISSING_REQ_ATTR;
+    if (code)
+        return damaged(reader->name, code, err);
+    reader->parts = calloc((size_t)reader->part_count, sizeof *reader->parts);
+    if (!reader->parts)
+        return error_memory(err, (double)reader->part_count * (double)sizeof *reader->parts);
+    enum result result = RESULT_OK;
+    for (int i = 0; i < reader->part_count && !result; i++) {
+        struct part *part = &reader->parts[i];
+        *part = (struct part){.context = reader->context, .name = reader->name, .index = i};
+        result = check_storage(part, err);
+        if (!result)
+            result = check_compression(part, err);
+        if (!result)
+            result = read_geometry(part, err);
+        if (!result)
+            result = check_channels(part, err);
+    }
+    return result;
+}
+
+static int min_int(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static int max_int(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+/* The image is what holds the data windows of all parts. Its memory, and the picture's, is checked before anything is
+ * allocated. */
+static enum result place_parts(struct reader *reader, struct image_window *window, struct error *err)
+{
+    int left = reader->parts[0].left, top = reader->parts[0].top;
+    int64_t right = 0, bottom = 0, channels = 0;
+    for (int i = 0; i < reader->part_count; i++) {
+        left = min_int(left, reader->parts[i].left);
+        top = min_int(top, reader->parts[i].top);
+        channels += reader->parts[i].channels->num_channels;
+    }
+    for (int i = 0; i < reader->part_count; i++) {
+        struct part *part = &reader->parts[i];
+        int64_t x = (int64_t)part->left - left, y = (int64_t)part->top - top;
+        right = x + part->width > right ? x + part->width : right;
+        bottom = y + part->height > bottom ? y + part->height : bottom;
+        part->x = (int)x;
+        part->y = (int)y;
+    }
+    enum result result = check_size(reader->name, right, bottom, err);
+    if (result)
+        return result;
+    if (channels < 1 || channels > MAX_CHANNELS)
+        return error_set(err, RESULT_DATA, "%s: has %lld channels; from 1 to %d are read", reader->name,
+                         (long long)channels, MAX_CHANNELS);
+    reader->width = (int)right;
+    reader->height = (int)bottom;
+    reader->channels = (int)channels;
+
+    exr_attr_box2i_t display;
+    exr_result_t code = exr_get_display_window(reader->context, 0, &display);
+    if (code)
+        return damaged(reader->name, code, err);
+    int64_t display_width = (int64_t)display.max.x - display.min.x + 1;
+    int64_t display_height = (int64_t)display.max.y - display.min.y + 1;
+    result = check_size(reader->name, display_width, display_height, err);
+    if (result)
+        return result;
+    *window = (struct image_window){.left = (int64_t)display.min.x - left,
+                                    .top = (int64_t)display.min.y - top,
+                                    .width = (int)display_width,
+                                    .height = (int)display_height};
+    double stored_bytes = 0;
+    for (const struct part *part = reader->parts; part < reader->parts + reader->part_count; part++)
+        stored_bytes += (double)sizeof(float) * part->width * part->height * part->channels->num_channels;
+    if (stored_bytes > max_bytes_per_byte * (double)reader->file_size)
+        return error_set(err, RESULT_DATA,
+                         "%s: the OpenEXR file is damaged or cut short (%d x %d pixels of %d channels can't be in %zu "
+                         "bytes)",
+                         reader->name, reader->width, reader->height, reader->channels, reader->file_size);
+    double data_bytes = (double)sizeof(float) * reader->width * reader->height * reader->channels;
+    double display_bytes = (double)sizeof(float) * window->width * window->height * 3;
+    if (data_bytes + display_bytes > input_memory_limit())
+        return error_set(err, RESULT_DATA,
+                         "%s: %d x %d pixels of %d channels take %.1f GB, more than half of this machine's memory; "
+                         "write fewer channels or a smaller image",
+                         reader->name, max_int(reader->width, window->width), max_int(reader->height, window->height),
+                         reader->channels, (data_bytes + display_bytes) / 1e9);
+    return RESULT_OK;
+}
+
+/* The part's name, which its channels go by; NULL where there is none, or one that only counts parts (OpenImageIO's
+ * "subimage00"). */
+static const char *layer_of_part(const struct reader *reader, const struct part *part)
+{
+    static const char numbered[] = "subimage";
+    const char *name;
+    if (reader->part_count < 2 || exr_get_name(reader->context, part->index, &name) || !*name)
+        return NULL;
+    size_t length = strlen(numbered);
+    if (!strncmp(name, numbered, length) && !name[length + strspn(name + length, "0123456789")])
+        return NULL;
+    return name;
+}
+
+static enum result read_names(const struct reader *reader, struct exr_contents *contents, struct error *err)
+{
+    contents->names = calloc((size_t)reader->channels, sizeof *contents->names);
+    if (!contents->names)
+        return error_memory(err, (double)reader->channels * (double)sizeof *contents->names);
+    int plane = 0;
+    for (int i = 0; i < reader->part_count; i++) {
+        struct part *part = &reader->parts[i];
+        const char *layer = layer_of_part(reader, part);
+        size_t length = layer ? strlen(layer) : 0;
+        part->first_plane = plane;
+        for (int j = 0; j < part->channels->num_channels; j++, plane++) {
+            const char *name = part->channels->entries[j].name.str;
+            bool bare = layer && (strncmp(name, layer, length) || name[length] != '.');
+            char *joined = contents->names[plane];
+            if (snprintf(joined, EXR_NAME_SIZE, "%s%s%s", bare ? layer : "", bare ? "." : "", name) >= EXR_NAME_SIZE)
+                return error_set(err, RESULT_DATA, "%s: the name of part %d and that of its channel %s are too long",
+                                 reader->name, i + 1, name);
+            for (int k = 0; k < plane; k++)
+                if (!strcmp(contents->names[k], joined))
+                    return error_set(err, RESULT_DATA,
+                                     "%s: has two channels %s, the second in part %d; name the parts, or keep one: "
+                                     "oiiotool in.exr --subimage %d -o out.exr",
+                                     reader->name, joined, i + 1, i);
+        }
+    }
+    return RESULT_OK;
+}
+
+/* The chunk whose first pixel is (x, y) of the part. OpenEXRCore 3.1 takes an uncompressed chunk of any size, and what
+ * is missing of it would be whatever the memory held. */
+static exr_result_t find_chunk(const struct part *part, int x, int y, exr_chunk_info_t *chunk)
+{
+    exr_result_t code = part->tiled ? exr_read_tile_chunk_info(part->context, part->index, x / part->block_width,
+                                                               y / part->block_height, 0, 0, chunk)
+                                    : exr_read_scanline_chunk_info(part->context, part->index, part->top + y, chunk);
     if (code)
         return code;
-    if (chunk->width < 1 || chunk->height < 1 || chunk->width > reader->width - x ||
-        chunk->height > reader->height - y ||
+    if (chunk->width < 1 || chunk->height < 1 || chunk->width > part->width - x || chunk->height > part->height - y ||
         (chunk->compression == EXR_COMPRESSION_NONE && chunk->packed_size != chunk->unpacked_size))
         return EXR_ERR_CORRUPT_CHUNK;
     return EXR_ERR_SUCCESS;
 }
 
+static int plane_of(const struct part *part, const char *channel)
+{
+    for (int i = 0; i < part->channels->num_channels; i++)
+        if (!strcmp(part->channels->entries[i].name.str, channel))
+            return part->first_plane + i;
+    assert(!"the pipeline has the channels of the header");
+    return -1;
+}
+
 /* Decodes one block into the image; the pipeline is empty, or was used for the block to the left. */
-static exr_result_t decode_block(const struct reader *reader, struct exr_contents *contents, int x, int y,
+static exr_result_t decode_block(const struct part *part, const struct image *image, int x, int y,
                                  exr_decode_pipeline_t *pipeline)
 {
     exr_chunk_info_t chunk;
-    exr_result_t code = find_chunk(reader, x, y, &chunk);
+    exr_result_t code = find_chunk(part, x, y, &chunk);
     bool first = !pipeline->channels;
     if (!code)
-        code = first ? exr_decoding_initialize(reader->context, 0, &chunk, pipeline)
-                     : exr_decoding_update(reader->context, 0, &chunk, pipeline);
+        code = first ? exr_decoding_initialize(part->context, part->index, &chunk, pipeline)
+                     : exr_decoding_update(part->context, part->index, &chunk, pipeline);
     if (code)
         return code;
     /* The pipeline sorts its channels by name, and forgets the pointers with every chunk. */
     for (int i = 0; i < pipeline->channel_count; i++) {
         exr_coding_channel_info_t *to = &pipeline->channels[i];
-        int plane = exr_find(contents, to->channel_name);
-        assert(plane >= 0);
-        to->decode_to_ptr = (uint8_t *)(image_row(&contents->image, plane, y) + x);
+        float *row = image_row(image, plane_of(part, to->channel_name), part->y + y);
+        to->decode_to_ptr = (uint8_t *)(row + part->x + x);
         to->user_data_type = EXR_PIXEL_FLOAT;
         to->user_bytes_per_element = sizeof(float);
         to->user_pixel_stride = sizeof(float);
-        to->user_line_stride = (int32_t)(contents->image.stride * sizeof(float));
+        to->user_line_stride = (int32_t)(image->stride * sizeof(float));
     }
     if (first)
-        code = exr_decoding_choose_default_routines(reader->context, 0, pipeline);
-    return code ? code : exr_decoding_run(reader->context, 0, pipeline);
+        code = exr_decoding_choose_default_routines(part->context, part->index, pipeline);
+    return code ? code : exr_decoding_run(part->context, part->index, pipeline);
 }
 
 struct decoding {
-    const struct reader *reader;
-    struct exr_contents *contents;
+    const struct part *part;
+    const struct image *image;
     atomic_int code; /* of a block that failed */
 };
 
@@ -278,73 +405,105 @@ static void decode_rows(void *context, int first, int end)
 {
     (void)end;
     struct decoding *decoding = context;
-    const struct reader *reader = decoding->reader;
+    const struct part *part = decoding->part;
     exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_result_t code = EXR_ERR_SUCCESS;
-    for (int x = 0; x < reader->width && !code; x += reader->block_width)
-        code = decode_block(reader, decoding->contents, x, first, &pipeline);
-    exr_decoding_destroy(reader->context, &pipeline);
+    for (int x = 0; x < part->width && !code; x += part->block_width)
+        code = decode_block(part, decoding->image, x, first, &pipeline);
+    exr_decoding_destroy(part->context, &pipeline);
     if (code)
         decoding->code = code;
 }
 
-static enum result read_pixels(const struct reader *reader, struct exr_contents *contents, int channel_count,
-                               struct error *err)
+static enum result read_pixels(const struct reader *reader, const struct image *image, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int i = 0; i < reader->part_count && !result; i++) {
+        const struct part *part = &reader->parts[i];
+        struct decoding decoding = {.part = part, .image = image};
+        result = bands_run(part->height, part->block_height, 0, decode_rows, &decoding, err);
+        if (!result && decoding.code)
+            result = damaged(reader->name, (exr_result_t)decoding.code, err);
+    }
+    return result;
+}
+
+/* Before any memory is taken for the image: a short file that claims to be huge ends here. */
+static enum result check_chunks(const struct reader *reader, struct error *err)
 {
     exr_chunk_info_t chunk;
     exr_result_t code = EXR_ERR_SUCCESS;
-
-    /* Before any memory is taken for the image: a short file that claims to be huge ends here. */
-    for (int y = 0; y < reader->height && !code; y += reader->block_height)
-        for (int x = 0; x < reader->width && !code; x += reader->block_width)
-            code = find_chunk(reader, x, y, &chunk);
-    if (code)
-        return damaged(reader, code, err);
-    enum result result = image_alloc(&contents->image, reader->width, reader->height, channel_count, err);
-    if (result)
-        return result;
-
-    struct decoding decoding = {.reader = reader, .contents = contents};
-    result = bands_run(reader->height, reader->block_height, 0, decode_rows, &decoding, err);
-    if (result)
-        return result;
-    return decoding.code ? damaged(reader, (exr_result_t)decoding.code, err) : RESULT_OK;
+    for (int i = 0; i < reader->part_count; i++) {
+        const struct part *part = &reader->parts[i];
+        for (int y = 0; y < part->height && !code; y += part->block_height)
+            for (int x = 0; x < part->width && !code; x += part->block_width)
+                code = find_chunk(part, x, y, &chunk);
+    }
+    return code ? damaged(reader->name, code, err) : RESULT_OK;
 }
 
 /* An attribute that is there with another type is refused: leaving it out would silently change the picture. */
-static enum result attribute_result(const struct reader *reader, const char *attribute, const char *type,
-                                    exr_result_t code, bool *found, struct error *err)
+static enum result attribute_result(const struct part *part, const char *attribute, const char *type, exr_result_t code,
+                                    bool *found, struct error *err)
 {
     *found = code == EXR_ERR_SUCCESS;
     if (!code || code == EXR_ERR_NO_ATTR_BY_NAME)
         return RESULT_OK;
-    return error_set(err, RESULT_DATA, "%s: attribute %s must be a %s", reader->name, attribute, type);
+    return error_set(err, RESULT_DATA, "%s: attribute %s must be a %s", part->name, attribute, type);
 }
 
-static enum result read_float_attribute(const struct reader *reader, const char *attribute, float *value,
+static enum result read_float_attribute(const struct part *part, const char *attribute, float *value,
                                         struct error *err)
 {
     bool found;
     float stored = 0;
-    exr_result_t code = exr_attr_get_float(reader->context, 0, attribute, &stored);
-    enum result result = attribute_result(reader, attribute, "float", code, &found, err);
-    *value = found ? stored : 0;
+    exr_result_t code = exr_attr_get_float(part->context, part->index, attribute, &stored);
+    double wide;
+    if (code == EXR_ERR_ATTR_TYPE_MISMATCH && !exr_attr_get_double(part->context, part->index, attribute, &wide)) {
+        stored = (float)wide;
+        code = EXR_ERR_SUCCESS;
+    }
+    enum result result = attribute_result(part, attribute, "float", code, &found, err);
+    if (found)
+        *value = stored;
     return result;
 }
 
-static enum result read_attributes(const struct reader *reader, struct exr_attributes *attributes, struct error *err)
+/* Those of the part; what it lacks stays as it is. */
+static enum result read_attributes(const struct part *part, struct exr_attributes *attributes, struct error *err)
 {
+    bool found;
     exr_attr_v3f_t eye;
-    exr_result_t code = exr_attr_get_v3f(reader->context, 0, eye_name, &eye);
-    enum result result = attribute_result(reader, eye_name, "v3f", code, &attributes->has_eye, err);
+    exr_result_t code = exr_attr_get_v3f(part->context, part->index, eye_name, &eye);
+    enum result result = attribute_result(part, eye_name, "v3f", code, &found, err);
     if (result)
         return result;
-    if (attributes->has_eye)
+    if (found) {
+        attributes->has_eye = true;
         memcpy(attributes->eye, eye.arr, sizeof attributes->eye);
-    result = read_float_attribute(reader, view_angle_name, &attributes->view_angle, err);
+    }
+    result = read_float_attribute(part, view_angle_name, &attributes->view_angle, err);
     if (result)
         return result;
-    return read_float_attribute(reader, working_gamma_name, &attributes->working_gamma, err);
+    return read_float_attribute(part, working_gamma_name, &attributes->working_gamma, err);
+}
+
+static enum result read_contents(struct reader *reader, struct exr_contents *contents, struct error *err)
+{
+    enum result result = read_part_headers(reader, err);
+    if (!result)
+        result = place_parts(reader, &contents->window, err);
+    if (!result)
+        result = read_names(reader, contents, err);
+    for (int i = reader->part_count - 1; i >= 0 && !result; i--)
+        result = read_attributes(&reader->parts[i], &contents->attributes, err);
+    if (!result)
+        result = check_chunks(reader, err);
+    if (!result)
+        result = image_alloc(&contents->image, reader->width, reader->height, reader->channels, err);
+    if (!result)
+        result = read_pixels(reader, &contents->image, err);
+    return result;
 }
 
 enum result exr_read(const char *path, struct exr_contents *contents, struct error *err)
@@ -352,7 +511,6 @@ enum result exr_read(const char *path, struct exr_contents *contents, struct err
     static const unsigned char magic[4] = {0x76, 0x2f, 0x31, 0x01};
     struct input_file file;
     struct reader reader = {.name = input_file_name(path)};
-    int channel_count = 0;
     *contents = (struct exr_contents){0};
     enum result result = input_file_read(path, &file, err);
     if (result)
@@ -382,19 +540,10 @@ enum result exr_read(const char *path, struct exr_contents *contents, struct err
                            reader.name, IMAGE_MAX_SIDE, exr_get_default_error_message(code));
         goto out;
     }
-    result = check_parts(&reader, err);
-    if (!result)
-        result = check_compression(&reader, err);
-    if (!result)
-        result = read_geometry(&reader, err);
-    if (!result)
-        result = read_channel_list(&reader, contents, &channel_count, err);
-    if (!result)
-        result = read_attributes(&reader, &contents->attributes, err);
-    if (!result)
-        result = read_pixels(&reader, contents, channel_count, err);
+    result = read_contents(&reader, contents, err);
 out:
     exr_finish(&reader.context);
+    free(reader.parts);
     input_file_free(&file);
     if (result)
         exr_contents_free(contents);

@@ -24,12 +24,17 @@ struct exr_attributes {
 
 /* What was read: channel i has the name names[i] and is plane i of the image. */
 struct exr_contents {
-    struct image image;
+    struct image image;          /* the data window */
+    struct image_window window;  /* the display window in it */
     char (*names)[EXR_NAME_SIZE];
     struct exr_attributes attributes;
 };
 
-/* Reads every channel of a scanline or tiled single-part file, half, float or uint, as floats. "-": standard input. */
+/* Reads every channel of a scanline or tiled file, half, float or uint, as floats. "-": standard input.
+ *
+ * The parts of a multi-part file are joined: the image holds all their data windows, and is 0 where a part has no
+ * pixels. A channel is named "part.channel", unless its own name begins with its part's already; parts that
+ * OpenImageIO numbered ("subimage01") count as nameless. An attribute is that of the first part that has it. */
 MUST_CHECK enum result exr_read(const char *path, struct exr_contents *contents, struct error *err);
 void exr_contents_free(struct exr_contents *contents);
 

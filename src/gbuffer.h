@@ -19,9 +19,10 @@ struct gbuffer {
                                  (the filter's exponent applies wherever the endpoint is not all zero) */
     bool has_eye;
     float eye[3];       /* world units; without it the footprint comes from the gradient of the direction field */
-    float view_angle;   /* horizontal, radians; 0: unknown */
+    float view_angle;   /* of the planes' width, radians; 0: unknown */
     float working_gamma; /* exponent of the space in which the renderer added its terms (POV-Ray's assumed_gamma);
                             0 or 1: linear; GBUFFER_GAMMA_SRGB: the sRGB curve */
+    struct image_window window; /* the picture in the planes, which may be wider or smaller; width 0: all of them */
 };
 
 #define GBUFFER_GAMMA_SRGB (-1.0f)

@@ -2,7 +2,6 @@
 #include "image.h"
 
 #include <assert.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,4 +26,24 @@ void image_free(struct image *image)
 {
     free(image->pixels);
     *image = (struct image){0};
+}
+
+enum result image_crop(struct image *image, const struct image_window *window, struct error *err)
+{
+    struct image cropped;
+    enum result result = image_alloc(&cropped, window->width, window->height, image->channels, err);
+    if (result)
+        return result;
+    int64_t first = window->left > 0 ? window->left : 0;
+    int64_t end = window->left + window->width < image->width ? window->left + window->width : image->width;
+    for (int channel = 0; channel < image->channels; channel++)
+        for (int y = 0; y < cropped.height; y++) {
+            int64_t from = window->top + y;
+            if (from >= 0 && from < image->height && first < end)
+                memcpy(image_row(&cropped, channel, y) + (first - window->left),
+                       image_row(image, channel, (int)from) + first, (size_t)(end - first) * sizeof(float));
+        }
+    image_free(image);
+    *image = cropped;
+    return RESULT_OK;
 }

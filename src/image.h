@@ -5,6 +5,7 @@
 #include "error.h"
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* Limits on what is accepted from a file or a command line, per side and per plane. */
 enum { IMAGE_MAX_SIDE = 65535 };
@@ -16,12 +17,22 @@ struct image {
     float *pixels; /* channels planes of height rows, 64-byte aligned; NULL: there is no image */
 };
 
+/* A rectangle in pixels of an image, parts of which may lie outside of it. */
+struct image_window {
+    int64_t left, top;
+    int width, height;
+};
+
 /* Allocates a zeroed image (the padding of each row included). Sizes from 1 to IMAGE_MAX_SIDE, else RESULT_DATA; so is
  * a lack of memory. On failure *image is empty. The caller frees it. */
 MUST_CHECK enum result image_alloc(struct image *image, int width, int height, int channels, struct error *err);
 
 /* Frees the pixels and leaves an empty image; an empty image is fine. */
 void image_free(struct image *image);
+
+/* Replaces the image by what the window shows of it, 0 outside of it. RESULT_DATA: sizes, memory; the image is then as it
+ * was. */
+MUST_CHECK enum result image_crop(struct image *image, const struct image_window *window, struct error *err);
 
 /* First float of row y of a channel. */
 static inline float *image_row(const struct image *image, int channel, int y)

@@ -3,8 +3,9 @@
  * It reads them and leaves the rest (filter, compose, write) to what povgloss render calls, too.
  */
 #include "cli.h"
+#include "input_file.h"
 #include "interrupt.h"
-#include "passes_file.h"
+#include "passes_check.h"
 
 #include <stdio.h>
 
@@ -22,28 +23,55 @@ static const char help[] =
 
 static const char help_end[] =
     "  -o, --output FILE    where to write\n"
+    "Passes:\n"
+    "  --map CHANNEL=NAME   take a channel (P.X) or a group of them (P) from the file's channel or layer\n"
+    "                       of that name; may be given again\n"
+    "  --check              write nothing; tell which channels were found, what is missing, and whether\n"
+    "                       the values look right (status 3 if not)\n"
     "  -h, --help           this text\n"
     "  --version            the version\n"
     "\n"
-    "Channels of a passes file: R G B, specular.R/.G/.B, reflectance.R/.G/.B, P.X/.Y/.Z,\n"
-    "endpoint.X/.Y/.Z/.W, phong.V.\n"
+    "Channels of a passes file: R G B (base), specular.R/.G/.B, reflectance.R/.G/.B, P.X/.Y/.Z,\n"
+    "endpoint.X/.Y/.Z/.W, phong.V; those of other renderers go by their names, too.\n"
     "Exit status: 0 ok, 2 wrong command line, 3 file, data or memory.\n";
-
-static enum result run(const struct cli_glossfilter *command, struct error *err)
-{
-    struct gbuffer gbuffer = {0};
-    enum result result = passes_file_read(command->input, &gbuffer, err);
-    if (result == RESULT_OK)
-        result = cli_draw(command->output, &command->options, &gbuffer, err);
-    gbuffer_free(&gbuffer);
-    return result;
-}
 
 static enum result print(const char *first, const char *second, const char *third, struct error *err)
 {
     if (printf("%s%s%s", first, second, third) < 0 || fflush(stdout) != 0)
         return error_set(err, RESULT_DATA, "standard output: cannot write");
     return RESULT_OK;
+}
+
+/* RESULT_DATA, after the report, if something is wrong. */
+static enum result check(const struct cli_glossfilter *command, struct error *err)
+{
+    struct gbuffer gbuffer = {0};
+    struct passes_found found;
+    struct buffer report = {0};
+    int wrong = 0;
+    enum result result = passes_file_read_mapped(command->input, &command->map, &gbuffer, &found, err);
+    if (result)
+        return result;
+    result = passes_check(&gbuffer, &found, &report, &wrong, err);
+    if (!result)
+        result = print(report.data, "", "", err);
+    if (!result && wrong > 0)
+        result = error_set(err, RESULT_DATA, "%s: %d thing%s wrong with these passes", input_file_name(command->input),
+                           wrong, wrong > 1 ? "s are" : " is");
+    buffer_free(&report);
+    text_list_free(&found.channels);
+    gbuffer_free(&gbuffer);
+    return result;
+}
+
+static enum result run(const struct cli_glossfilter *command, struct error *err)
+{
+    struct gbuffer gbuffer = {0};
+    enum result result = passes_file_read_mapped(command->input, &command->map, &gbuffer, NULL, err);
+    if (result == RESULT_OK)
+        result = cli_draw(command->output, &command->options, &gbuffer, err);
+    gbuffer_free(&gbuffer);
+    return result;
 }
 
 int main(int argc, char **argv)
@@ -58,8 +86,9 @@ int main(int argc, char **argv)
         else if (command.version)
             result = print(program, " ", POVGLOSS_VERSION "\n", &err);
         else
-            result = run(&command, &err);
+            result = command.check ? check(&command, &err) : run(&command, &err);
     }
+    text_list_free(&command.map);
     if (result == RESULT_INTERRUPTED)
         interrupt_reraise();
     if (result != RESULT_OK)

@@ -6,6 +6,7 @@
 #include "depfile.h"
 #include "interrupt.h"
 #include "output_file.h"
+#include "own_files.h"
 #include "passes.h"
 #include "passes_file.h"
 #include "povray_switches.h"
@@ -50,6 +51,7 @@ static const char help_end[] =
     "  -o, --output FILE    where to write; - is standard output\n"
     "  -h, --help           this text\n"
     "  --version            the version\n"
+    "  --print-include-dir  the folder of povgloss.inc: povray +L$(povgloss --print-include-dir) ...\n"
     "\n"
     "Exit status: 0 ok, 2 wrong command line, 3 file, data or memory, 4 POV-Ray failed.\n";
 
@@ -64,7 +66,7 @@ struct command {
     bool from_scene, resume, no_check;
     struct cli_filter filter;
     bool filter_options_used;
-    bool help, version;
+    bool help, version, print_include_dir;
 };
 
 static enum result take_scene(struct command *command, const char *scene, struct error *err)
@@ -85,6 +87,7 @@ static bool take_flag(const char *argument, struct command *command)
         {"-h", &command->help},
         {"--help", &command->help},
         {"--version", &command->version},
+        {"--print-include-dir", &command->print_include_dir},
         {"--from-scene", &command->from_scene},
         {"--resume", &command->resume},
         {"--no-check", &command->no_check},
@@ -231,7 +234,7 @@ static enum result take_arguments(int argc, char **argv, struct command *command
     enum result result = RESULT_OK;
     for (int index = 1 + has_command; !result && index < argc;)
         result = take_argument(argc, argv, &index, command, switches, err);
-    if (!result && !has_command && !command->help && !command->version)
+    if (!result && !has_command && !command->help && !command->version && !command->print_include_dir)
         result = error_set(err, RESULT_USAGE, "no command: write render, passes or list first, see povgloss --help");
     return result;
 }
@@ -266,7 +269,7 @@ static enum result parse(int argc, char **argv, struct command *command, struct 
     enum result result = povray_switches_begin(switches, err);
     if (!result)
         result = take_arguments(argc, argv, command, switches, err);
-    if (result || command->help || command->version)
+    if (result || command->help || command->version || command->print_include_dir)
         return result;
     result = find_scene(command, switches, err);
     if (!result && command->from_scene)
@@ -391,7 +394,7 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
     if (!result)
         warn(command, frame, &note);
     if (!result)
-        result = passes_check(*passes, number, &gbuffer, &note, err);
+        result = passes_check_sum(*passes, number, &gbuffer, &note, err);
     if (!result)
         warn(command, frame, &note);
     if (!result && last && command->depfile)
@@ -440,6 +443,16 @@ static enum result run(struct command *command, struct error *err)
                                        : depfile_write(command->depfile, &command->outputs, &command->reads, err);
 }
 
+static enum result print_include_dir(struct error *err)
+{
+    char *path;
+    enum result result = own_file("share/povgloss/include", &path, err);
+    if (!result)
+        puts(path);
+    free(path);
+    return result;
+}
+
 int main(int argc, char **argv)
 {
     struct command command = {0};
@@ -451,11 +464,13 @@ int main(int argc, char **argv)
         printf("%s%s%s", help, cli_filter_help, help_end);
     else if (!result && command.version)
         printf("povgloss %s\n", POVGLOSS_VERSION);
+    else if (!result && command.print_include_dir)
+        result = print_include_dir(&err);
     else if (!result && command.list)
         result = list(&command, &err);
     else if (!result)
         result = run(&command, &err);
-    if (!result && (command.help || command.version) && (fflush(stdout) || ferror(stdout)))
+    if (!result && (command.help || command.version || command.print_include_dir) && (fflush(stdout) || ferror(stdout)))
         result = error_set(&err, RESULT_DATA, "standard output: cannot be written");
     free(command.path);
     buffer_free(&command.reads);

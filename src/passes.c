@@ -686,7 +686,7 @@ static void note_difference(const struct passes *passes, const struct picture_di
                   (double)sum[1], (double)sum[2], (double)own[0], (double)own[1], (double)own[2]);
 }
 
-enum result passes_check(const struct passes *passes, int frame, const struct gbuffer *gbuffer, struct error *note,
+enum result passes_check_sum(const struct passes *passes, int frame, const struct gbuffer *gbuffer, struct error *note,
                          struct error *err)
 {
     const struct passes_options *options = passes->options;

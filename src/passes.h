@@ -31,7 +31,7 @@ struct passes_options {
                              switches say the size */
     int jobs;             /* POV-Ray processes at the same time; 0: two more than there are cores */
     int timeout_s;        /* for each POV-Ray process; 0: none */
-    bool check;           /* POV-Ray's own picture is rendered, too, for passes_check */
+    bool check;           /* POV-Ray's own picture is rendered, too, for passes_check_sum */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;
@@ -56,7 +56,7 @@ MUST_CHECK enum result passes_render(struct passes *passes, int frame, struct gb
 
 /* Compares what passes_render made of the frame with POV-Ray's own picture, unless `check` is false or only a part of the
  * picture is rendered. *note is a warning where they differ: something in the scene isn't modelled by the passes. */
-MUST_CHECK enum result passes_check(const struct passes *passes, int frame, const struct gbuffer *gbuffer,
+MUST_CHECK enum result passes_check_sum(const struct passes *passes, int frame, const struct gbuffer *gbuffer,
                                     struct error *note, struct error *err);
 
 /* Adds the files that POV-Ray and povgloss read for the frames that were rendered to *files, as reads_list does. */

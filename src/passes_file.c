@@ -1,7 +1,6 @@
-/* The passes file: which channels of an EXR make which plane of a gbuffer, in one table for both directions. */
+/* The passes file: the channel groups as the images of a gbuffer, in one table for both directions. */
 #include "passes_file.h"
 
-#include "exr_io.h"
 #include "input_file.h"
 
 #include <assert.h>
@@ -9,58 +8,43 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { MAX_GROUP = 4, GROUP_COUNT = 6 };
+/* The image of each channel group in struct gbuffer. */
+static const size_t image_offsets[CHANNEL_GROUPS] = {
+    offsetof(struct gbuffer, base),     offsetof(struct gbuffer, specular), offsetof(struct gbuffer, reflectance),
+    offsetof(struct gbuffer, position), offsetof(struct gbuffer, endpoint), offsetof(struct gbuffer, phong)};
 
-static const struct group {
-    const char *names[MAX_GROUP];
-    int count;
-    size_t image; /* offset in struct gbuffer */
-    bool required;
-    const char *meaning;
-} groups[GROUP_COUNT] = {
-    {{"R", "G", "B"}, 3, offsetof(struct gbuffer, base), false, "the image without the glossy reflection, linear"},
-    {{"specular.R", "specular.G", "specular.B"},
-     3,
-     offsetof(struct gbuffer, specular),
-     true,
-     "the radiance along the ideal mirror direction, linear"},
-    {{"reflectance.R", "reflectance.G", "reflectance.B"},
-     3,
-     offsetof(struct gbuffer, reflectance),
-     false,
-     "reflectivity times coverage"},
-    {{"P.X", "P.Y", "P.Z"}, 3, offsetof(struct gbuffer, position), true, "the position of the visible point"},
-    {{"endpoint.X", "endpoint.Y", "endpoint.Z", "endpoint.W"},
-     4,
-     offsetof(struct gbuffer, endpoint),
-     true,
-     "the end of the mirrored ray; W is 1 for a position and 0 for a direction"},
-    {{"phong.V"}, 1, offsetof(struct gbuffer, phong), false, "the Phong exponent"},
-};
+static enum result refuse_missing(const char *path, const struct channel_group *group, const char *missing,
+                                  bool others, struct error *err)
+{
+    return error_set(err, RESULT_DATA,
+                     "%s: has no channel %s (%s: %s to %s); %s; if it goes by another name: --map %s=NAME",
+                     input_file_name(path), missing, group->meaning, group->names[0], group->names[group->count - 1],
+                     others ? "all channels of a group are needed" : "a passes file needs it", missing);
+}
 
 /* Copies the planes of a group; a group that is not there leaves an empty image. */
-static enum result read_group(const char *path, const struct exr_contents *contents, const struct group *group,
-                              struct image *image, struct error *err)
+static enum result read_group(const char *path, const struct exr_contents *contents, const struct channel_group *group,
+                              const struct text_list *map, struct image *image, struct passes_names *names,
+                              struct error *err)
 {
-    int planes[MAX_GROUP], present = 0;
-    const char *missing = NULL;
+    int planes[CHANNELS_MAX];
+    const char *missing;
+    enum result result = channels_find(path, contents, group, map, planes, &missing, err);
+    if (result)
+        return result;
+    bool some = false;
     for (int i = 0; i < group->count; i++) {
-        planes[i] = exr_find(contents, group->names[i]);
-        if (planes[i] >= 0)
-            present++;
-        else if (!missing)
-            missing = group->names[i];
+        some |= planes[i] >= 0;
+        if (names && planes[i] >= 0)
+            strcpy(names->names[i], contents->names[planes[i]]);
     }
-    if (!present && !group->required)
+    if (missing && (names || (!some && !group->required)))
         return RESULT_OK;
     if (missing)
-        return error_set(err, RESULT_DATA, "%s: has no channel %s (%s: %s to %s); %s",
-                         input_file_name(path), missing, group->meaning, group->names[0],
-                         group->names[group->count - 1],
-                         present ? "all channels of a group are needed" : "a passes file needs it");
+        return refuse_missing(path, group, missing, some, err);
 
     const struct image *from = &contents->image;
-    enum result result = image_alloc(image, from->width, from->height, group->count, err);
+    result = image_alloc(image, from->width, from->height, group->count, err);
     if (result)
         return result;
     for (int i = 0; i < group->count; i++)
@@ -87,42 +71,68 @@ static enum result check_attributes(const char *path, const struct exr_attribute
     return RESULT_OK;
 }
 
+/* The names of the file's channels, for those who look for one. */
+static enum result list_channels(const struct exr_contents *contents, struct text_list *channels, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int i = 0; i < contents->image.channels && !result; i++)
+        result = text_list_add(channels, err, "%s", contents->names[i]);
+    return result;
+}
+
 enum result passes_file_read(const char *path, struct gbuffer *gbuffer, struct error *err)
 {
+    return passes_file_read_mapped(path, &(struct text_list){0}, gbuffer, NULL, err);
+}
+
+enum result passes_file_read_mapped(const char *path, const struct text_list *map, struct gbuffer *gbuffer,
+                                    struct passes_found *found, struct error *err)
+{
     *gbuffer = (struct gbuffer){0};
+    if (found)
+        *found = (struct passes_found){0};
     struct exr_contents contents;
     enum result result = exr_read(path, &contents, err);
     if (result)
         return result;
     const struct exr_attributes *attributes = &contents.attributes;
     result = check_attributes(path, attributes, err);
-    for (int i = 0; i < GROUP_COUNT && !result; i++)
-        result = read_group(path, &contents, &groups[i], (struct image *)((char *)gbuffer + groups[i].image), err);
+    for (int i = 0; i < CHANNEL_GROUPS && !result; i++) {
+        struct image *image = (struct image *)((char *)gbuffer + image_offsets[i]);
+        result = read_group(path, &contents, &channel_groups[i], map, image, found ? &found->groups[i] : NULL, err);
+    }
+    if (!result && found)
+        result = list_channels(&contents, &found->channels, err);
     if (result)
         goto out;
     gbuffer->has_eye = attributes->has_eye;
     memcpy(gbuffer->eye, attributes->eye, sizeof gbuffer->eye);
-    gbuffer->view_angle = attributes->view_angle;
+    gbuffer->window = contents.window;
+    gbuffer->view_angle =
+        (float)((double)attributes->view_angle * contents.image.width / contents.window.width);
     gbuffer->working_gamma = attributes->working_gamma;
 out:
     exr_contents_free(&contents);
-    if (result)
+    if (result) {
         gbuffer_free(gbuffer);
+        if (found)
+            text_list_free(&found->channels);
+    }
     return result;
 }
 
 enum result passes_file_write(const char *path, const struct gbuffer *gbuffer, struct error *err)
 {
-    struct exr_channel channels[GROUP_COUNT * MAX_GROUP];
+    struct exr_channel channels[CHANNEL_GROUPS * CHANNELS_MAX];
     int count = 0;
-    for (int i = 0; i < GROUP_COUNT; i++) {
-        const struct image *image = (const struct image *)((const char *)gbuffer + groups[i].image);
+    for (int i = 0; i < CHANNEL_GROUPS; i++) {
+        const struct image *image = (const struct image *)((const char *)gbuffer + image_offsets[i]);
         if (!image->pixels)
             continue;
-        assert(image->channels == groups[i].count);
-        for (int channel = 0; channel < groups[i].count; channel++) {
+        assert(image->channels == channel_groups[i].count);
+        for (int channel = 0; channel < channel_groups[i].count; channel++) {
             channels[count] = (struct exr_channel){.image = image, .channel = channel};
-            strcpy(channels[count].name, groups[i].names[channel]);
+            strcpy(channels[count].name, channel_groups[i].names[channel]);
             count++;
         }
     }

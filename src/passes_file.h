@@ -12,11 +12,30 @@
 #ifndef POVGLOSS_PASSES_FILE_H
 #define POVGLOSS_PASSES_FILE_H
 
+#include "channels.h"
 #include "gbuffer.h"
 
-/* Reads `path` ("-": standard input) into *gbuffer, which the caller frees. specular, P and endpoint are required: a file
- * without one of them is refused by name (RESULT_DATA). On failure *gbuffer is empty. */
+/* Reads `path` ("-": standard input) into *gbuffer, which the caller frees: all parts, by our names or other renderers'
+ * (channels.h). The planes hold the data window, gbuffer->window is the display window in it; povgloss:viewAngle, that of
+ * the display window, is widened to the planes.
+ *
+ * specular, P and endpoint are required: a file without one of them is refused by name (RESULT_DATA). On failure
+ * *gbuffer is empty. */
 MUST_CHECK enum result passes_file_read(const char *path, struct gbuffer *gbuffer, struct error *err);
+
+/* What was found in a file. */
+struct passes_names {
+    char names[CHANNELS_MAX][EXR_NAME_SIZE]; /* of each channel of a group, in the file; "": it is missing */
+};
+struct passes_found {
+    struct passes_names groups[CHANNEL_GROUPS];
+    struct text_list channels; /* all that the file has */
+};
+
+/* The same with the names of `map` (channels.h) before all others. With `found` not NULL nothing is refused for what is
+ * missing: *found tells it, and the caller frees found->channels. */
+MUST_CHECK enum result passes_file_read_mapped(const char *path, const struct text_list *map, struct gbuffer *gbuffer,
+                                               struct passes_found *found, struct error *err);
 
 /* Writes `path` ("-": standard output) through a temporary file in the same folder. Empty images are left out. */
 MUST_CHECK enum result passes_file_write(const char *path, const struct gbuffer *gbuffer, struct error *err);

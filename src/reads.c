@@ -3,12 +3,12 @@
 #include "reads.h"
 
 #include "input_file.h"
+#include "own_files.h"
 #include "scene_rewrite.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 void reads_free(struct reads *reads)
 {
@@ -28,15 +28,8 @@ static enum result empty_log(const struct work_folder *folder, struct error *err
 
 enum result reads_begin(const struct work_folder *folder, struct error *err)
 {
-    char program[4096], *object = NULL;
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    program[length > 0 ? length : 0] = 0;
-    char *slash = strrchr(program, '/');
-    enum result result = text_printf(&object, err, "%.*s/../lib/povgloss_reads.so", slash ? (int)(slash - program) : 0,
-                                     program);
-    if (!result && access(object, R_OK))
-        result = error_set(err, RESULT_DATA, "%s: isn't there, and --depfile needs it: build or install povgloss anew",
-                           object);
+    char *object;
+    enum result result = own_file("lib/povgloss/reads.so", &object, err);
     if (!result)
         result = work_folder_link(folder, "reads.so", object, err);
     free(object);

@@ -21,7 +21,7 @@ struct reads {
 
 void reads_free(struct reads *reads);
 
-/* Makes the empty log and the link to the shared object, ../lib/povgloss_reads.so from the program's folder.
+/* Makes the empty log and the link to the shared object, lib/povgloss/reads.so (own_files.h).
  * RESULT_DATA where that isn't there. */
 MUST_CHECK enum result reads_begin(const struct work_folder *folder, struct error *err);
 

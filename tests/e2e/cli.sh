@@ -66,7 +66,7 @@ own_options=(--depfile -o --from-scene --resume --subsample --jobs --keep --povr
 check "povgloss --help names every option" \
     helps povgloss "${own_options[@]}" "${filter_options[@]}" --layers -q --quiet --help --version
 check "glossfilter --help names every option" \
-    helps glossfilter -o --output "${filter_options[@]}" --layers -q --quiet -h --help --version
+    helps glossfilter -o --output --map --check "${filter_options[@]}" --layers -q --quiet -h --help --version
 check "povgloss --version" tells_version povgloss
 check "glossfilter --version" tells_version glossfilter
 
@@ -82,6 +82,8 @@ check "povgloss passes with an option of the filter" refuses povgloss "glossfilt
 check "povgloss passes to a PNG" refuses povgloss "exr" passes scene.pov -o x.png
 check "glossfilter without arguments" refuses glossfilter "no passes file"
 check "glossfilter without an output" refuses glossfilter "no output" passes.exr
+check "glossfilter --check without a passes file" refuses glossfilter "no passes file" --check
+check "glossfilter: --map without a value" refuses glossfilter "--map needs a value" passes.exr -o x.exr --map
 check "glossfilter with two passes files" refuses glossfilter "b.exr" passes.exr b.exr -o x.exr
 check "glossfilter with an unknown option" refuses glossfilter "--nonsense: unknown option" passes.exr -o x.exr --nonsense
 check "glossfilter with an unknown short option" refuses glossfilter "-z: unknown option" passes.exr -o x.exr -z

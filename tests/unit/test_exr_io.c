@@ -423,21 +423,141 @@ static void exr_read__deep__refused_with_a_cure_that_works(void **state)
     assert_cure_works("deep.exr", assert_refused("deep.exr", "deep data"));
 }
 
-static void exr_read__several_parts__refused_with_a_cure_that_works(void **state)
+static void assert_channel(const struct exr_contents *contents, const char *name, int x, int y, float value)
+{
+    int plane = exr_find(contents, name);
+    if (plane < 0)
+        fail_msg("no channel %s", name);
+    assert_near(image_row(&contents->image, plane, y)[x], value, 0);
+}
+
+static void exr_read__parts_numbered_by_oiiotool__channels_by_their_own_names(void **state)
 {
     (void)state;
-    run("oiiotool --pattern noise 8x8 3 -d float -o p1.exr");
-    run("oiiotool p1.exr --chnames s.R,s.G,s.B -o p2.exr && oiiotool p1.exr --chnames t.R,t.G,t.B -o p3.exr");
-    run("oiiotool p1.exr p2.exr --siappend -o two.exr");
-    run("oiiotool p1.exr p2.exr --siappend p3.exr --siappend -o three.exr");
-    assert_cure_works("two.exr", assert_refused("two.exr", "has 2 parts"));
-    assert_cure_works("three.exr", assert_refused("three.exr", "has 3 parts"));
     struct exr_contents contents;
     struct error err;
-    assert_ok(exr_read(in_scratch("out.exr"), &contents, &err), err);
+    run("oiiotool --pattern constant:color=1,2,3 9x5 3 -d float --compression piz -o p1.exr");
+    run("oiiotool --pattern constant:color=4,5,6 9x5 3 -d half --tile 4 4 --chnames s.R,s.G,s.B -o p2.exr");
+    run("oiiotool --pattern constant:color=7,8,9 9x5 3 -d half --chnames t.R,t.G,t.B -o p3.exr");
+    run("oiiotool p1.exr p2.exr p3.exr --siappendall -o three.exr");
+    assert_contains(run("exrheader three.exr"), "\"subimage02\"");
+    assert_ok(exr_read(in_scratch("three.exr"), &contents, &err), err);
     assert_int_equal(contents.image.channels, 9);
-    assert_true(exr_find(&contents, "t.B") >= 0);
+    static const char *const names[] = {"R", "G", "B", "s.R", "s.G", "s.B", "t.R", "t.G", "t.B"};
+    for (int i = 0; i < 9; i++) {
+        assert_channel(&contents, names[i], 0, 0, (float)(i + 1));
+        assert_channel(&contents, names[i], 8, 4, (float)(i + 1));
+    }
     exr_contents_free(&contents);
+}
+
+static void exr_read__named_parts__names_before_the_channels(void **state)
+{
+    (void)state;
+    struct exr_contents contents;
+    struct error err;
+    run("oiiotool --pattern constant:color=1,2,3 9x5 3 -d float -o p1.exr");
+    run("oiiotool --pattern constant:color=4,5,6 9x5 3 -d float --chnames s.R,s.G,s.B -o p2.exr");
+    run("oiiotool --pattern constant:color=7,8,9 9x5 3 -d half -o p3.exr");
+    run("exrmultipart -combine -i p1.exr::View.P p2.exr::s p3.exr::sum -o named.exr");
+    assert_ok(exr_read(in_scratch("named.exr"), &contents, &err), err);
+    static const char *const names[] = {"View.P.R", "View.P.G", "View.P.B", "s.R",   "s.G",
+                                        "s.B",      "sum.R",    "sum.G",    "sum.B"};
+    assert_int_equal(contents.image.channels, 9);
+    for (int i = 0; i < 9; i++)
+        assert_channel(&contents, names[i], 3, 2, (float)(i + 1));
+    exr_contents_free(&contents);
+}
+
+static void exr_read__two_channels_of_one_name__refused_with_a_cure_that_works(void **state)
+{
+    (void)state;
+    run("oiiotool --pattern noise 8x8 3 -d float -o p1.exr && oiiotool p1.exr p1.exr --siappend -o double.exr");
+    assert_cure_works("double.exr", assert_refused("double.exr", "has two channels B, the second in part 2"));
+}
+
+/* Data windows 4x3 at (2,1) and 6x2 at (-1,2): the image is 7x3 at (-1,1). */
+static void exr_read__parts_of_several_windows__all_in_one_image(void **state)
+{
+    (void)state;
+    struct exr_contents contents;
+    struct error err;
+    run("oiiotool --pattern constant:color=1 4x3 1 --chnames a -d float --origin +2+1 --fullsize 10x8+0+0 -o w1.exr");
+    run("oiiotool --pattern constant:color=2 6x2 1 --chnames b -d float --origin -1+2 --fullsize 10x8+0+0 -o w2.exr");
+    run("oiiotool w1.exr w2.exr --siappend -o windows.exr");
+    assert_ok(exr_read(in_scratch("windows.exr"), &contents, &err), err);
+    assert_int_equal(contents.image.width, 7);
+    assert_int_equal(contents.image.height, 3);
+    assert_int_equal(contents.window.left, 1);
+    assert_int_equal(contents.window.top, -1);
+    assert_int_equal(contents.window.width, 10);
+    assert_int_equal(contents.window.height, 8);
+    for (int y = 0; y < 3; y++)
+        for (int x = 0; x < 7; x++) {
+            assert_channel(&contents, "a", x, y, x >= 3 ? 1 : 0);
+            assert_channel(&contents, "b", x, y, x < 6 && y >= 1 ? 2 : 0);
+        }
+    exr_contents_free(&contents);
+}
+
+static void exr_read__attributes_of_a_later_part__found(void **state)
+{
+    (void)state;
+    struct exr_contents contents;
+    struct error err;
+    struct image image;
+    make_image(&image, 5, 4, 1);
+    write_planes(in_scratch("t.exr"), &image, &(struct exr_attributes){.view_angle = 0.75f});
+    run("oiiotool --pattern noise 5x4 3 -d float -o p1.exr && oiiotool p1.exr t.exr --siappend -o late.exr");
+    assert_ok(exr_read(in_scratch("late.exr"), &contents, &err), err);
+    assert_near(contents.attributes.view_angle, 0.75, 0);
+    exr_contents_free(&contents);
+    image_free(&image);
+}
+
+/* Mitsuba writes its floats so. */
+static void exr_read__double_attribute__as_float(void **state)
+{
+    (void)state;
+    struct exr_contents contents;
+    struct error err;
+    static const char before[] = "povgloss:viewAngle\0float\0\4\0\0\0";
+    enum { NAME = 19, MORE = 1 + 4 }; /* a letter of the type's name, and bytes of its value */
+    struct image image;
+    size_t size, chunk = 0;
+    const double angle = 0.75;
+    make_image(&image, 5, 4, 1);
+    write_planes(in_scratch("t.exr"), &image, &(struct exr_attributes){.view_angle = 0.5f});
+    unsigned char *data = read_bytes(in_scratch("t.exr"), &size);
+    size_t at = find_bytes(data, size, before, sizeof before - 1);
+    unsigned char *wide = calloc(size + MORE, 1);
+    assert_non_null(wide);
+    memcpy(wide, data, at + NAME);
+    memcpy(wide + at + NAME, "double\0\10\0\0", 11);
+    memcpy(wide + at + NAME + 11, &angle, sizeof angle);
+    memcpy(wide + at + NAME + 19, data + at + sizeof before - 1 + 4, size - (at + sizeof before - 1 + 4));
+    /* The table of the one chunk's place lies right before the chunk. */
+    for (size_t i = at; i + 8 < size && !chunk; i++)
+        if (get(data + i, 4) == i + 8 && get(data + i + 4, 4) == 0)
+            chunk = i + 8;
+    put(wide + chunk - 8 + MORE, (uint32_t)chunk + MORE, 4);
+    write_bytes(in_scratch("double.exr"), wide, size + MORE);
+    free(data);
+    free(wide);
+    image_free(&image);
+    assert_contains(run("exrheader double.exr"), "povgloss:viewAngle (type double)");
+    assert_ok(exr_read(in_scratch("double.exr"), &contents, &err), err);
+    assert_near(contents.attributes.view_angle, 0.75, 0);
+    exr_contents_free(&contents);
+}
+
+static void exr_read__display_window_of_any_size__refused_where_too_large(void **state)
+{
+    (void)state;
+    run("oiiotool --pattern noise 8x8 1 -d float --fullsize 65536x8+0+0 -o wide.exr");
+    assert_refused("wide.exr", "65536 x 8 pixels");
+    run("oiiotool --pattern noise 8x8 1 -d float --fullsize 65535x65535+0+0 -o all.exr");
+    assert_refused("all.exr", "more than half of this machine's memory");
 }
 
 static void exr_read__subsampled_channel__refused_by_name(void **state)
@@ -655,7 +775,13 @@ int main(void)
         cmocka_unit_test(exr_read__attribute_of_another_type__refused),
         cmocka_unit_test(exr_read__unsupported_compression__refused_with_a_cure_that_works),
         cmocka_unit_test(exr_read__deep__refused_with_a_cure_that_works),
-        cmocka_unit_test(exr_read__several_parts__refused_with_a_cure_that_works),
+        cmocka_unit_test(exr_read__parts_numbered_by_oiiotool__channels_by_their_own_names),
+        cmocka_unit_test(exr_read__named_parts__names_before_the_channels),
+        cmocka_unit_test(exr_read__two_channels_of_one_name__refused_with_a_cure_that_works),
+        cmocka_unit_test(exr_read__parts_of_several_windows__all_in_one_image),
+        cmocka_unit_test(exr_read__attributes_of_a_later_part__found),
+        cmocka_unit_test(exr_read__double_attribute__as_float),
+        cmocka_unit_test(exr_read__display_window_of_any_size__refused_where_too_large),
         cmocka_unit_test(exr_read__subsampled_channel__refused_by_name),
         cmocka_unit_test(exr_read__header_of_a_huge_image__refused_without_the_memory),
         cmocka_unit_test(exr_read__not_an_exr__says_so),
