@@ -9,5 +9,6 @@ void gbuffer_free(struct gbuffer *gbuffer)
     image_free(&gbuffer->position);
     image_free(&gbuffer->endpoint);
     image_free(&gbuffer->phong);
+    image_free(&gbuffer->direction);
     *gbuffer = (struct gbuffer){0};
 }

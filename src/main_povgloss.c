@@ -1,4 +1,4 @@
-/* povgloss: a POV-Ray scene in, its glossy image (render) or its passes file (passes) out.
+/* povgloss: a POV-Ray scene in, its glossy image (render), its passes file (passes) or true values of it (probe) out.
  *
  * The command line mixes POV-Ray's switches, which are passed through, with options of two hyphens.
  */
@@ -9,8 +9,10 @@
 #include "passes.h"
 #include "passes_file.h"
 #include "povray_switches.h"
+#include "probe_file.h"
 #include "scene_list.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,10 +23,14 @@ static const char help[] =
     "usage: povgloss render SCENE.pov [POV-Ray switches] [options] -o IMAGE\n"
     "       povgloss passes SCENE.pov [POV-Ray switches] [options] -o PASSES.exr\n"
     "       povgloss list SCENE.pov [POV-Ray switches]\n"
+    "       povgloss probe SCENE.pov [POV-Ray switches] [options] -o PROBES.csv\n"
+    "       povgloss compare PROBES.csv IMAGE.exr [--phong P]\n"
     "\n"
     "Glossy reflections for POV-Ray scenes that say Gloss(300) in a finish (povgloss.inc).\n"
     "render draws the glossy image; passes writes what glossfilter needs to draw it, again and again;\n"
     "list shows the finishes that reflect, and the exponent that each has or that --gloss auto gives it.\n"
+    "probe measures the true blurred reflection at a grid of pixels, by thousands of POV-Ray's rays each;\n"
+    "compare tells how far an image that was filtered with --layers is from it.\n"
     "POV-Ray's switches (+W640 +H480 +A0.3 +Ldir Declare=x=1 file.ini[section]) go to POV-Ray as they are.\n"
     "An animation (+KFF30) is drawn frame by frame, into files numbered as POV-Ray numbers them.\n"
     "\n"
@@ -45,15 +51,29 @@ static const char help[] =
     "  --povray PROGRAM     the POV-Ray program (default povray)\n";
 
 static const char help_end[] =
+    "Probes:\n"
+    "  --grid N             probes across the picture's width (default 32), rows as far apart\n"
+    "  --error E            rays are added until the 95 % confidence interval is within +-E, for values\n"
+    "                       above 1 within +-E of the value (default 0.002)\n"
+    "  --phong P            in place of the scene's exponent; may be given again: each is measured\n"
+    "  --seed N             of the random directions (default 0)\n"
+    "\n"
     "  -o, --output FILE    where to write; - is standard output\n"
     "  -h, --help           this text\n"
     "  --version            the version\n"
     "\n"
     "Exit status: 0 ok, 2 wrong command line, 3 file, data or memory, 4 POV-Ray failed.\n";
 
+enum kind { KIND_RENDER, KIND_PASSES, KIND_LIST, KIND_PROBE, KIND_COMPARE, KIND_NONE };
+
+static const char *const kind_names[] = {"render", "passes", "list", "probe", "compare"};
+
 struct command {
-    bool passes_only, list;
+    enum kind kind;
     const char *scene, *output;
+    const char *image; /* to compare with the probes, whose file is the scene then */
+    struct probe_options probe;
+    struct buffer exponents; /* of doubles, for the probes */
     const char *depfile; /* NULL: none */
     struct buffer reads; /* for its rule: what the outputs were made from, */
     struct text_list outputs; /* and their names */
@@ -67,6 +87,10 @@ struct command {
 
 static enum result take_scene(struct command *command, const char *scene, struct error *err)
 {
+    if (command->kind == KIND_COMPARE && command->scene && !command->image) {
+        command->image = scene;
+        return RESULT_OK;
+    }
     if (command->scene)
         return error_set(err, RESULT_USAGE, "two scenes, %s and %s: give one", command->scene, scene);
     command->scene = scene;
@@ -132,6 +156,44 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
     return RESULT_OK;
 }
 
+/* Options of povgloss probe and compare alone; *taken as above. */
+static enum result take_probe_option(int argc, char **argv, int *index, struct command *command, bool *taken,
+                                     struct error *err)
+{
+    const struct {
+        const char *name;
+        double low, high;
+        double *number;
+        int *whole;
+    } options[] = {
+        {"--phong", 0, INFINITY, NULL, NULL},
+        {"--error", 1e-6, 1, &command->probe.error, NULL},
+        {"--grid", 1, IMAGE_MAX_SIDE, NULL, &command->probe.grid},
+        {"--seed", 0, 1e9, NULL, &command->probe.seed},
+    };
+    int count = command->kind == KIND_COMPARE ? 1 : (int)(sizeof options / sizeof *options);
+    for (int i = 0; i < count; i++) {
+        const char *value;
+        double number;
+        enum result result = cli_value(argc, argv, index, options[i].name, &value, err);
+        if (result || !value) {
+            if (result)
+                return result;
+            continue;
+        }
+        *taken = true;
+        if (options[i].whole)
+            return cli_integer(options[i].name, value, (int)options[i].low, (int)options[i].high, options[i].whole, err);
+        result = cli_number(options[i].name, value, options[i].low, options[i].high, &number, err);
+        if (!result && options[i].number)
+            *options[i].number = number;
+        else if (!result)
+            result = buffer_add(&command->exponents, &number, sizeof number, err);
+        return result;
+    }
+    return RESULT_OK;
+}
+
 static enum result take_argument(int argc, char **argv, int *index, struct command *command,
                                  struct povray_switches *switches, struct error *err)
 {
@@ -142,6 +204,8 @@ static enum result take_argument(int argc, char **argv, int *index, struct comma
         return RESULT_OK;
     }
     enum result result = take_own_option(argc, argv, index, command, &taken, err);
+    if (!result && !taken && (command->kind == KIND_PROBE || command->kind == KIND_COMPARE))
+        result = take_probe_option(argc, argv, index, command, &taken, err);
     if (result || taken)
         return result;
     result = cli_filter_option(argc, argv, index, &command->filter, &taken, err);
@@ -181,22 +245,34 @@ static enum result find_scene(struct command *command, const struct povray_switc
     return povray_switches_find_scene(switches, scene, &command->path, err);
 }
 
+static enum result check_probe(const struct command *command, struct error *err)
+{
+    if (command->filter_options_used || command->depfile || command->resume || command->passes.subsample > 1)
+        return error_set(err, RESULT_USAGE,
+                         "povgloss probe neither filters nor subsamples, and has no --depfile and no --resume");
+    if (frames_count(&command->passes.frames) > 1)
+        return error_set(err, RESULT_USAGE, "povgloss probe measures one frame: name it (+SF1 +EF1)");
+    return RESULT_OK;
+}
+
 static enum result check_command(struct command *command, const struct povray_switches *switches, struct error *err)
 {
-    if (command->list && (command->output || command->filter_options_used || command->depfile || command->passes.keep ||
-                          command->resume))
+    if (command->kind == KIND_LIST && (command->output || command->filter_options_used || command->depfile ||
+                                       command->passes.keep || command->resume))
         return error_set(err, RESULT_USAGE,
                          "povgloss list takes a scene and POV-Ray's switches, and writes to standard output");
-    if (command->list)
+    if (command->kind == KIND_LIST)
         return RESULT_OK;
     if (!command->output)
         return error_set(err, RESULT_USAGE, "no output: add -o FILE (or -o - for standard output)");
+    if (command->kind == KIND_PROBE)
+        return check_probe(command, err);
     if (command->depfile && !strcmp(command->output, "-"))
         return error_set(err, RESULT_USAGE, "--depfile needs the output's name for its rule: -o - has none");
     if (command->depfile && command->resume)
         return error_set(err, RESULT_USAGE,
                          "--depfile tells what every image was made from, and --resume skips some: leave one of them out");
-    if (command->passes_only && command->filter_options_used)
+    if (command->kind == KIND_PASSES && command->filter_options_used)
         return error_set(err, RESULT_USAGE, "povgloss passes doesn't filter: give the filter's options to glossfilter");
     int step = command->passes.subsample, count = frames_count(&command->passes.frames);
     if (count > 1 && is_stream(command->output))
@@ -205,7 +281,7 @@ static enum result check_command(struct command *command, const struct povray_sw
                          output_file_name(command->output), count);
     if (step > 1 && (switches->width == 0 || switches->height == 0 || switches->width % step || switches->height % step))
         return error_set(err, RESULT_USAGE, "--subsample %d needs +W and +H, both multiples of %d", step, step);
-    if (command->passes_only) {
+    if (command->kind == KIND_PASSES) {
         enum image_format format;
         struct error ignored;
         if (!image_format_choose(command->output, NULL, &format, &ignored) && format != IMAGE_FORMAT_EXR)
@@ -218,18 +294,36 @@ static enum result check_command(struct command *command, const struct povray_sw
 static enum result take_arguments(int argc, char **argv, struct command *command, struct povray_switches *switches,
                                   struct error *err)
 {
-    bool has_command = !strcmp(argv[1], "render") || !strcmp(argv[1], "passes") || !strcmp(argv[1], "list");
-    *command = (struct command){.passes = {.povray = "povray", .subsample = 1}, .filter = cli_filter_default()};
+    *command = (struct command){.kind = KIND_RENDER,
+                                .probe = {.grid = 32, .error = 0.002},
+                                .passes = {.povray = "povray", .subsample = 1},
+                                .filter = cli_filter_default()};
+    while (command->kind < KIND_NONE && strcmp(argv[1], kind_names[command->kind]) != 0)
+        command->kind++;
+    bool has_command = command->kind < KIND_NONE;
     if (!has_command && argv[1][0] != '-')
-        return error_set(err, RESULT_USAGE, "unknown command %s: render, passes or list, see povgloss --help", argv[1]);
-    command->passes_only = has_command && argv[1][0] == 'p';
-    command->list = has_command && argv[1][0] == 'l';
+        return error_set(err, RESULT_USAGE,
+                         "unknown command %s: render, passes, list, probe or compare, see povgloss --help", argv[1]);
     enum result result = RESULT_OK;
     for (int index = 1 + has_command; !result && index < argc;)
         result = take_argument(argc, argv, &index, command, switches, err);
     if (!result && !has_command && !command->help && !command->version)
         result = error_set(err, RESULT_USAGE, "no command: write render, passes or list first, see povgloss --help");
     return result;
+}
+
+static enum result check_comparison(const struct command *command, struct error *err)
+{
+    const struct passes_options *passes = &command->passes;
+    if (command->output || command->filter_options_used || command->depfile || passes->keep || command->resume ||
+        command->from_scene || passes->subsample > 1 || passes->gloss.automatic || passes->gloss.all)
+        return error_set(err, RESULT_USAGE, "povgloss compare takes probes, an image and --phong, and writes to standard "
+                                            "output");
+    if (!command->image)
+        return error_set(err, RESULT_USAGE, "povgloss compare needs two files: PROBES.csv and IMAGE.exr");
+    if (command->exponents.size > sizeof(double))
+        return error_set(err, RESULT_USAGE, "povgloss compare: an image has one --phong");
+    return RESULT_OK;
 }
 
 /* The switches of the scene's comment come before those of the command line: the last one counts. */
@@ -240,6 +334,7 @@ static enum result take_comment(int argc, char **argv, struct command *command, 
     char *path = command->path, *text = NULL;
     povray_switches_free(switches);
     gloss_choice_free(&command->passes.gloss);
+    buffer_free(&command->exponents);
     enum result result = povray_switches_begin(switches, err);
     if (!result)
         result = povray_switches_take_comment(switches, path, &text, err);
@@ -264,6 +359,8 @@ static enum result parse(int argc, char **argv, struct command *command, struct 
         result = take_arguments(argc, argv, command, switches, err);
     if (result || command->help || command->version)
         return result;
+    if (command->kind == KIND_COMPARE)
+        return check_comparison(command, err);
     result = find_scene(command, switches, err);
     if (!result && command->from_scene)
         result = take_comment(argc, argv, command, switches, err);
@@ -385,7 +482,7 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
     }
 
     /* 3. the passes file, or the picture by the filter */
-    if (!result && command->passes_only)
+    if (!result && command->kind == KIND_PASSES)
         result = passes_file_write(path, &gbuffer, err);
     else if (!result)
         result = cli_draw(path, &command->filter, &gbuffer, err);
@@ -424,6 +521,81 @@ static enum result run(struct command *command, struct error *err)
                                        : depfile_write(command->depfile, &command->outputs, &command->reads, err);
 }
 
+/* Rounds of rays until every probe is exact enough, or has as many as are allowed. */
+static enum result measure(const struct command *command, struct passes *passes, struct probes *probes, struct error *err)
+{
+    enum result result = RESULT_OK;
+    long round = 0;
+    while (!result && probes_left(probes)) {
+        struct buffer view = {0};
+        struct image image = {0};
+        int width, height;
+        if (round != probes->rays && !command->filter.quiet)
+            fprintf(stderr, "povgloss: %d probes of %ld rays\n", probes_open(probes), probes->rays);
+        round = probes->rays;
+        result = probes_view(probes, &view, &width, &height, err);
+        if (!result)
+            result = passes_view(passes, command->passes.frames.first, &view, width, height, &image, err);
+        if (!result)
+            result = probes_take(probes, &image, err);
+        image_free(&image);
+        buffer_free(&view);
+    }
+    return result;
+}
+
+static enum result probe(struct command *command, struct error *err)
+{
+    struct progress progress = {.terminal = isatty(STDERR_FILENO), .frame = "", .shown = -1};
+    struct passes *passes = NULL;
+    struct gbuffer gbuffer = {0};
+    struct probes probes = {0};
+    struct error note;
+    enum result result = check_place(command->output, err);
+    command->passes.progress = command->filter.quiet ? no_progress : show_progress;
+    command->passes.progress_context = &progress;
+    command->probe.exponents = (const double *)(const void *)command->exponents.data;
+    command->probe.exponent_count = (int)(command->exponents.size / sizeof(double));
+    if (!result)
+        result = passes_open(&command->passes, &passes, &note, err);
+    if (!result)
+        warn(command, "", &note);
+    if (!result)
+        result = passes_render(passes, command->passes.frames.first, &gbuffer, &note, err);
+    if (!result)
+        warn(command, "", &note);
+    if (!result)
+        result = probes_begin(&probes, &gbuffer, &command->probe, err);
+    if (!result)
+        result = measure(command, passes, &probes, err);
+    passes_close(passes);
+    int left = result ? 0 : probes_open(&probes);
+    if (left > 0)
+        error_set(&note, RESULT_OK, "%s: %d of %d probes have a larger error than %g after %d rays: see their column error",
+                  command->path, left, probes.count, command->probe.error, PROBE_MOST_RAYS);
+    if (left > 0)
+        warn(command, "", &note);
+    if (!result)
+        result = probe_file_write(command->output, &probes, err);
+    probes_free(&probes);
+    gbuffer_free(&gbuffer);
+    return result;
+}
+
+static enum result compare(const struct command *command, struct error *err)
+{
+    struct probe_comparison found;
+    const double *phong = (const double *)(const void *)command->exponents.data;
+    enum result result = probe_file_compare(command->scene, command->image, phong ? *phong : -1, &found, err);
+    if (!result)
+        printf("probes %d\nrmse %.6g\nbias %.6g\nmedian %.6g\np95 %.6g\nworst %.6g\nworst_at %d,%d\nnoise %.6g\n",
+               found.count, found.rmse, found.bias, found.median, found.percentile_95, found.worst, found.worst_x,
+               found.worst_y, found.noise);
+    if (!result && (fflush(stdout) || ferror(stdout)))
+        result = error_set(err, RESULT_DATA, "standard output: cannot be written");
+    return result;
+}
+
 int main(int argc, char **argv)
 {
     struct command command = {0};
@@ -435,14 +607,19 @@ int main(int argc, char **argv)
         printf("%s%s%s", help, cli_filter_help, help_end);
     else if (!result && command.version)
         printf("povgloss %s\n", POVGLOSS_VERSION);
-    else if (!result && command.list)
+    else if (!result && command.kind == KIND_LIST)
         result = list(&command, &err);
+    else if (!result && command.kind == KIND_PROBE)
+        result = probe(&command, &err);
+    else if (!result && command.kind == KIND_COMPARE)
+        result = compare(&command, &err);
     else if (!result)
         result = run(&command, &err);
     if (!result && (command.help || command.version) && (fflush(stdout) || ferror(stdout)))
         result = error_set(&err, RESULT_DATA, "standard output: cannot be written");
     free(command.path);
     buffer_free(&command.reads);
+    buffer_free(&command.exponents);
     text_list_free(&command.outputs);
     povray_switches_free(&switches);
     gloss_choice_free(&command.passes.gloss);

@@ -101,6 +101,10 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .second = {.copy = -1},
                        .trailer = sky_white},
+    [PASS_PROBE] = {.name = "probe",
+                    .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
+                    .second = {.copy = -1},
+                    .trailer = "#include \"" PASS_PROBE_VIEW "\"\n"},
 };
 
 /* What a copy without textures refers to. */
@@ -385,7 +389,8 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     if (!result)
         result = buffer_add_text(
             text, "#macro povgloss_nothing() sphere { 0, 1e-6 no_image no_reflection no_shadow no_radiosity } #end\n", err);
-    if (!result && has_second_part(scene, id))
+    bool separates = has_second_part(scene, id) || id == PASS_PROBE;
+    if (!result && separates)
         result = buffer_add_text(text, "#declare povgloss_default = texture { pigment { rgb 0 } };\n", err);
     /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
     if (!result)
@@ -396,11 +401,10 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
         result = scene_save_names(scene, text, err);
     if (!result)
         result = add_part(scene, pass, &first, text, err);
-    if (!result && has_second_part(scene, id)) {
+    if (!result && separates)
         result = add_separation(scene, text, err);
-        if (!result)
-            result = add_part(scene, pass, &pass->second, text, err);
-    }
+    if (!result && has_second_part(scene, id))
+        result = add_part(scene, pass, &pass->second, text, err);
     if (!result && pass->coded_sky)
         result = add_coded_sky(pass, text, err);
     if (!result && pass->trailer)
@@ -412,7 +416,7 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
 
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
-    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
+    if (id == PASS_PROBE || (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts))
         return false;
     return id == PASS_BASE || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }

@@ -20,10 +20,12 @@ enum pass_id {
     PASS_ENDPOINT_LOW,
     PASS_DIRECTION,
     PASS_EXPONENT,
+    PASS_PROBE, /* what mirrored rays see in PASS_PROBE_VIEW, the mirrors and the camera of the caller; not of the picture */
     PASS_COUNT,
 };
 
 #define PASS_PHOTONS_FILE "photons.ph"
+#define PASS_PROBE_VIEW "view.inc"
 
 /* A copy of the scene in a union. */
 struct scene_part {

@@ -406,6 +406,44 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     return result;
 }
 
+/* The size of the image, all of it. */
+static enum result add_size(struct text_list *arguments, int width, int height, struct error *err)
+{
+    const struct {
+        const char *format;
+        int value;
+    } switches[] = {{"+W%d", width}, {"+H%d", height}, {"+SC%d", 1}, {"+EC%d", width}, {"+SR%d", 1}, {"+ER%d", height}};
+    enum result result = RESULT_OK;
+    for (size_t i = 0; !result && i < sizeof switches / sizeof *switches; i++) {
+        char text[32];
+        snprintf(text, sizeof text, switches[i].format, switches[i].value);
+        result = text_list_add(arguments, err, "%s", text);
+    }
+    return result;
+}
+
+static enum result run_view(const struct passes *passes, int frame, int width, int height, struct error *err)
+{
+    struct text_list arguments = {0};
+    char *folder = NULL;
+    int failed = -1;
+    enum result result = job_arguments(passes, PASS_PROBE, frame, &arguments, err);
+    if (!result)
+        result = add_size(&arguments, width, height, err);
+    if (!result)
+        result = text_printf(&folder, err, "%s/%s", passes->folder.path, pass_table[PASS_PROBE].name);
+    struct povray_job job = {
+        .name = pass_table[PASS_PROBE].name, .folder = folder, .arguments = arguments.texts};
+    if (!result)
+        result = povray_run(&job, 1, 1, passes->environment, no_progress, NULL, &failed, err);
+    if (failed >= 0)
+        result = report_failure(passes, &job, err);
+    povray_jobs_free(&job, 1);
+    text_list_free(&arguments);
+    free(folder);
+    return result;
+}
+
 static enum result collect_reads(struct passes *passes, struct error *err)
 {
     const struct reads_places places = {.scene = &passes->scene,
@@ -533,6 +571,29 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
         result = remove_images(passes, &images, err);
     if (result)
         gbuffer_free(gbuffer);
+    return result;
+}
+
+enum result passes_view(struct passes *passes, int frame, const struct buffer *view, int width, int height,
+                        struct image *image, struct error *err)
+{
+    char number[FRAMES_NUMBER_SIZE], *path = NULL;
+    frames_number(&passes->options->frames, frame, number);
+    const struct pass_images images = {
+        .folder = passes->folder.path, .number = number, .name = passes->options->scene, .subsample = 1};
+    enum result result = write_pass(passes, PASS_PROBE, err);
+    if (!result)
+        result = text_printf(&path, err, "%s/%s/" PASS_PROBE_VIEW, passes->folder.path, pass_table[PASS_PROBE].name);
+    if (!result)
+        result = file_write(path, view, err);
+    if (!result)
+        result = run_view(passes, frame, width, height, err);
+    if (!result)
+        result = pass_images_radiance(&images, PASS_PROBE, image, err);
+    if (!result && (image->width != width || image->height != height))
+        result = error_set(err, RESULT_DATA, "%s: POV-Ray's image of the probe pass is %dx%d, not %dx%d",
+                           passes->options->scene, image->width, image->height, width, height);
+    free(path);
     return result;
 }
 

@@ -7,9 +7,9 @@ rows='error preload_reads
 interrupt cpu mem lobe gamma
 image gbuffer weights bands input_file output_file frames
 exr_io png_io position_code eye interpolate filter_kernel child scene_lexer gloss_choice ini_file povray_switches work_folder depfile
-passes_file image_file filter compose povray scene scene_tokens scene_discover
+passes_file image_file filter compose probe povray scene scene_tokens scene_discover
 scene_rewrite scene_list
-pass_scene pass_images reads
+pass_scene pass_images reads probe_file
 passes
 cli
 main_glossfilter main_povgloss'
