@@ -37,14 +37,17 @@ static uint32_t hash(uint32_t v)
     return v ^ v >> 16;
 }
 
-/* Owen's scrambling: every bit is flipped at random, by a hash of the seed and all bits above it. */
+/* Owen's scrambling: every bit is flipped at random, by a hash of the seed and all bits above it (Laine and
+ * Karras, Stratified sampling for stochastic transparency, 2011; this one is Vegdahl's, 2021). */
 static uint32_t scramble(uint32_t v, uint32_t seed)
 {
-    for (int bit = 31; bit >= 0; bit--) {
-        uint32_t above = bit < 31 ? v >> (bit + 1) : 0;
-        v ^= (hash(above ^ hash(seed + (uint32_t)bit)) & 1) << bit;
-    }
-    return v;
+    v = reverse_bits(v);
+    v ^= v * 0x3d20adeau;
+    v += seed;
+    v *= (seed >> 16) | 1;
+    v ^= v * 0x05526c56u;
+    v ^= v * 0x53a22864u;
+    return reverse_bits(v);
 }
 
 /* Second coordinate of Sobol's sequence; the first is the index with its bits reversed. */
