@@ -554,6 +554,7 @@ static enum result probe(struct command *command, struct error *err)
     enum result result = check_place(command->output, err);
     command->passes.progress = command->filter.quiet ? no_progress : show_progress;
     command->passes.progress_context = &progress;
+    command->passes.rays = true;
     command->probe.exponents = (const double *)(const void *)command->exponents.data;
     command->probe.exponent_count = (int)(command->exponents.size / sizeof(double));
     if (!result)

@@ -303,7 +303,9 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         else
             note_lost(gbuffer, images->name, note);
     }
-    if (!result && images->subsample == 1)
+    if (!result && images->rays)
+        result = read_coded(images, PASS_MIRROR, PASS_MIRROR_LOW, &codes, &gbuffer->mirrored, err);
+    if (!result && images->rays)
         gbuffer->direction = directions;
     else
         image_free(&directions);

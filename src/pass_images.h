@@ -12,6 +12,7 @@ struct pass_images {
     const char *name;   /* of the scene, for messages */
     const struct scene *scene;
     int subsample;
+    bool rays; /* with those of the mirror */
 };
 
 /* The path of a pass's image, which the caller frees: folder/pass/image03.exr, .png for codes. */
@@ -23,7 +24,7 @@ MUST_CHECK enum result pass_images_radiance(const struct pass_images *images, en
                                             struct error *err);
 
 /* Reads and decodes all of them into *gbuffer: a and b, the eye, exponents, reflectance in the working space; subsampled
- * passes interpolated (and without the eye's directions). RESULT_DATA where an image is missing, broken or of another size than the others; then, too, the
+ * passes interpolated. RESULT_DATA where an image is missing, broken or of another size than the others; then, too, the
  * caller frees the gbuffer. *note is a warning worth a line where nothing glossy is seen. */
 MUST_CHECK enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
                                         struct error *err);

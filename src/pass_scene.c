@@ -101,6 +101,22 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .second = {.copy = -1},
                        .trailer = sky_white},
+    [PASS_MIRROR] = {.name = "mirror",
+                     .codes = true,
+                     .technical = true,
+                     .digits = POSITION_DIGITS_HIGH,
+                     .mirror_colour = mirror_white,
+                     .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
+                     .second = {.copy = -1},
+                     .coded_sky = true},
+    [PASS_MIRROR_LOW] = {.name = "mirror-low",
+                         .codes = true,
+                         .technical = true,
+                         .digits = POSITION_DIGITS_LOW,
+                         .mirror_colour = mirror_white,
+                         .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
+                         .second = {.copy = -1},
+                         .coded_sky = true},
     [PASS_PROBE] = {.name = "probe",
                     .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                     .second = {.copy = -1},
@@ -281,7 +297,10 @@ static enum result add_coding_texture(const struct pass *pass, struct buffer *te
     enum result result = buffer_add_text(text, "texture { ", err);
     if (!result)
         result = position_code_pigment(text, false, pass->digits, err);
-    return result ? result : buffer_add_text(text, "finish { emission 1 ambient 0 diffuse 0 specular 0 phong 0 } }\n", err);
+    return result ? result : buffer_add_text(text,
+                                             "finish { emission 1 ambient 0 diffuse 0 specular 0 phong 0 irid { 0 } crand 0 "
+                                             "reflection { 0 } } }\n",
+                                             err);
 }
 
 static enum result add_part(const struct scene *scene, const struct pass *pass, const struct scene_part *part,
@@ -414,9 +433,14 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     return result;
 }
 
+bool pass_is_mirror(enum pass_id id)
+{
+    return id == PASS_MIRROR || id == PASS_MIRROR_LOW;
+}
+
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
-    if (id == PASS_PROBE || (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts))
+    if (id == PASS_PROBE || pass_is_mirror(id) || (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts))
         return false;
     return id == PASS_BASE || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }

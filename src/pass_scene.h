@@ -20,6 +20,8 @@ enum pass_id {
     PASS_ENDPOINT_LOW,
     PASS_DIRECTION,
     PASS_EXPONENT,
+    PASS_MIRROR, /* the mirrored rays' directions, for probes: an endpoint may lie behind glass that bends the ray */
+    PASS_MIRROR_LOW,
     PASS_PROBE, /* what mirrored rays see in PASS_PROBE_VIEW, the mirrors and the camera of the caller; not of the picture */
     PASS_COUNT,
 };
@@ -55,6 +57,9 @@ extern const struct pass pass_table[PASS_COUNT];
  * exponents where there are several, where a texture may mix a glossy surface with another one, or where a total reflection
  * may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
+
+/* Whether the pass is one of the mirrored rays' directions, which are rendered for those who ask. */
+bool pass_is_mirror(enum pass_id id);
 
 /* Marks the kinds of copies that the pass includes. */
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT]);

@@ -89,7 +89,8 @@ static enum result write_scenes(struct passes *passes, struct error *err)
     enum result result = RESULT_OK;
     passes->job_count = 0;
     for (int id = 0; !result && id < PASS_COUNT; id++) {
-        if (!pass_needed(&passes->scene, (enum pass_id)id))
+        bool asked = passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id);
+        if (!asked && !pass_needed(&passes->scene, (enum pass_id)id))
             continue;
         passes->ids[passes->job_count++] = (enum pass_id)id;
         pass_copies(&passes->scene, (enum pass_id)id, needed);
@@ -530,7 +531,7 @@ enum result passes_open(const struct passes_options *options, struct passes **op
                         struct error *err)
 {
     const struct povray_switches *switches = options->switches;
-    assert(options->subsample >= 1 && (options->subsample == 1 || (switches->width > 0 && switches->height > 0)));
+    assert(options->subsample >= 1 && !(options->rays && options->subsample > 1) && (options->subsample == 1 || (switches->width > 0 && switches->height > 0)));
     struct passes *passes = *opened = calloc(1, sizeof *passes);
     if (!passes)
         return error_memory(err, sizeof *passes);
@@ -557,7 +558,8 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
                                        .number = number,
                                        .name = options->scene,
                                        .scene = &passes->scene,
-                                       .subsample = options->subsample};
+                                       .subsample = options->subsample,
+                                       .rays = options->rays};
     *gbuffer = (struct gbuffer){0};
     note->text[0] = 0;
     enum result result = prepare_frame(passes, frame, err);

@@ -27,6 +27,7 @@ struct passes_options {
     int subsample;        /* 1; 2 or 4: specular, a and b are traced at every so-many-th pixel and interpolated; then the
                              switches say the size */
     int jobs;             /* POV-Ray processes at the same time; 0: two more than there are cores */
+    bool rays;            /* the gbuffer gets the eye's rays and the mirrored ones; not with subsampling */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;

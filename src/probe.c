@@ -6,9 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rays start this far in front of their mirror, world units: POV-Ray passes over what is nearer than 1e-4. */
+/* Rays start this far in front of their mirror, world units: POV-Ray passes over what is nearer than 1e-4. Farther than
+ * FAR_AWAY from the origin both grow with that distance: POV-Ray's bounding boxes are of floats. */
 #define START 1e-3
-#define MIRROR_RADIUS 1e-5
+#define MIRROR_RADIUS 2e-5
+#define FAR_AWAY 100.0
 /* Mirrors stand this far above the surface, as a share of the distance from the origin or the eye: positions are known to
  * about a tenth of it. */
 #define LIFT 1e-6
@@ -108,9 +110,9 @@ static void make_frame(const double axis[3], double turn, double across[3], doub
     }
 }
 
-static void read_vector(const struct image *image, int x, int y, double *v, int count)
+static void read_vector(const struct image *image, int x, int y, double v[3])
 {
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < 3; i++)
         v[i] = image_row(image, i, y)[x];
 }
 
@@ -119,12 +121,10 @@ static void read_vector(const struct image *image, int x, int y, double *v, int 
 /* The mirror and the rays of a pixel; false where the passes don't tell them. */
 static bool place(struct probe *probe, const struct gbuffer *gbuffer, unsigned seed)
 {
-    double view[3], end[4], mirrored[3];
-    read_vector(&gbuffer->position, probe->x, probe->y, probe->position, 3);
-    read_vector(&gbuffer->endpoint, probe->x, probe->y, end, 4);
-    read_vector(&gbuffer->direction, probe->x, probe->y, view, 3);
-    for (int i = 0; i < 3; i++)
-        mirrored[i] = end[i] - end[3] * probe->position[i];
+    double view[3], mirrored[3];
+    read_vector(&gbuffer->position, probe->x, probe->y, probe->position);
+    read_vector(&gbuffer->direction, probe->x, probe->y, view);
+    read_vector(&gbuffer->mirrored, probe->x, probe->y, mirrored);
     if (!normalise(view) || !normalise(mirrored))
         return false;
     for (int i = 0; i < 3; i++)
@@ -137,6 +137,7 @@ static bool place(struct probe *probe, const struct gbuffer *gbuffer, unsigned s
         probe->axis[i] = mirrored[i] - off * probe->normal[i];
         from_eye += difference * difference;
     }
+    probe->scale = fmax(1, sqrt(from_origin) / FAR_AWAY);
     for (int i = 0; i < 3; i++)
         probe->position[i] += LIFT * sqrt(fmax(from_eye, from_origin)) * probe->normal[i];
     uint32_t random = hash(hash(hash(seed + 0x9e3779b9u) + (uint32_t)probe->x) + (uint32_t)probe->y);
@@ -240,9 +241,10 @@ static enum result add_lobe(const struct probes *probes, int lobe, double phong,
     return result ? result : buffer_add_text(text, "} }\n", err);
 }
 
-static enum result add_vector(struct buffer *text, const char *before, const double v[3], struct error *err)
+static enum result add_vector(struct buffer *text, const char *before, double scale, const double v[3],
+                              struct error *err)
 {
-    return buffer_printf(text, err, "%s%.17g,%.17g,%.17g", before, v[0], v[1], v[2]);
+    return buffer_printf(text, err, "%s%.17g,%.17g,%.17g", before, scale * v[0], scale * v[1], scale * v[2]);
 }
 
 /* The lobe, turned to where the probe looks. */
@@ -250,22 +252,22 @@ static enum result add_mesh(struct buffer *text, const struct probe *probe, int 
 {
     enum result result = buffer_printf(text, err, "mesh { povgloss_lobe%d ", lobe);
     if (!result)
-        result = add_vector(text, "matrix <", probe->across, err);
+        result = add_vector(text, "matrix <", probe->scale, probe->across, err);
     if (!result)
-        result = add_vector(text, ",", probe->up, err);
+        result = add_vector(text, ",", probe->scale, probe->up, err);
     if (!result)
-        result = add_vector(text, ",", probe->axis, err);
+        result = add_vector(text, ",", probe->scale, probe->axis, err);
     if (!result)
-        result = add_vector(text, ",", probe->position, err);
+        result = add_vector(text, ",", 1, probe->position, err);
     return result ? result : buffer_add_text(text, "> }\n", err);
 }
 
 static enum result add_mirror(struct buffer *text, const struct probe *probe, struct error *err)
 {
-    enum result result = add_vector(text, "disc { <", probe->position, err);
+    enum result result = add_vector(text, "disc { <", 1, probe->position, err);
     if (!result)
-        result = add_vector(text, ">, <", probe->normal, err);
-    return result ? result : buffer_printf(text, err, ">, %g }\n", MIRROR_RADIUS);
+        result = add_vector(text, ">, <", 1, probe->normal, err);
+    return result ? result : buffer_printf(text, err, ">, %g }\n", probe->scale * MIRROR_RADIUS);
 }
 
 /* As many probes as a view may hold, at least one: together their rays and their lobes' faces. */

@@ -38,6 +38,7 @@ struct probe {
 
     /* the frame of the rays: they come along `axis` (the eye's ray, straightened by the bisector) */
     double position[3], normal[3], axis[3], across[3], up[3];
+    double scale; /* of the camera and the mirror */
     double sum[PROBE_SETS][3];
     long count[PROBE_SETS];
     bool done;

@@ -55,14 +55,15 @@ static void make_floor(struct gbuffer *gbuffer, int width, int height_px, double
 {
     gbuffer_alloc(gbuffer, width, height_px);
     assert_ok(image_alloc(&gbuffer->direction, width, height_px, 3, &err), err);
+    assert_ok(image_alloc(&gbuffer->mirrored, width, height_px, 3, &err), err);
     for (int y = 0; y < height_px; y++)
         for (int x = 0; x < width; x++) {
             image_row(&gbuffer->position, 0, y)[x] = (float)x;
             image_row(&gbuffer->position, 2, y)[x] = (float)y;
             image_row(&gbuffer->direction, 0, y)[x] = (float)cos(steepness);
             image_row(&gbuffer->direction, 1, y)[x] = (float)-sin(steepness);
-            image_row(&gbuffer->endpoint, 0, y)[x] = (float)cos(steepness);
-            image_row(&gbuffer->endpoint, 1, y)[x] = (float)sin(steepness);
+            image_row(&gbuffer->mirrored, 0, y)[x] = (float)cos(steepness);
+            image_row(&gbuffer->mirrored, 1, y)[x] = (float)sin(steepness);
             image_row(&gbuffer->specular, 0, y)[x] = 0.25f;
             image_row(&gbuffer->phong, 0, y)[x] = phong;
         }
