@@ -51,16 +51,15 @@ static const char help[] =
     "  --povray PROGRAM     the POV-Ray program (default povray)\n";
 
 static const char help_end[] =
+    "  -o, --output FILE    where to write; - is standard output\n"
+    "  -h, --help           this text\n"
+    "  --version            the version\n"
     "Probes:\n"
     "  --grid N             probes across the picture's width (default 32), rows as far apart\n"
     "  --error E            rays are added until the 95 % confidence interval is within +-E, for values\n"
     "                       above 1 within +-E of the value (default 0.002)\n"
     "  --phong P            in place of the scene's exponent; may be given again: each is measured\n"
     "  --seed N             of the random directions (default 0)\n"
-    "\n"
-    "  -o, --output FILE    where to write; - is standard output\n"
-    "  -h, --help           this text\n"
-    "  --version            the version\n"
     "\n"
     "Exit status: 0 ok, 2 wrong command line, 3 file, data or memory, 4 POV-Ray failed.\n";
 
@@ -91,6 +90,8 @@ static enum result take_scene(struct command *command, const char *scene, struct
         command->image = scene;
         return RESULT_OK;
     }
+    if (command->kind == KIND_COMPARE && command->scene)
+        return error_set(err, RESULT_USAGE, "povgloss compare needs two files, and not %s too", scene);
     if (command->scene)
         return error_set(err, RESULT_USAGE, "two scenes, %s and %s: give one", command->scene, scene);
     command->scene = scene;
@@ -252,6 +253,8 @@ static enum result check_probe(const struct command *command, struct error *err)
                          "povgloss probe neither filters nor subsamples, and has no --depfile and no --resume");
     if (frames_count(&command->passes.frames) > 1)
         return error_set(err, RESULT_USAGE, "povgloss probe measures one frame: name it (+SF1 +EF1)");
+    if (!strcmp(command->output, "-") && isatty(STDOUT_FILENO))
+        return error_set(err, RESULT_USAGE, "standard output is a terminal: redirect it, or name a file with -o");
     return RESULT_OK;
 }
 
