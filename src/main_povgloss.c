@@ -24,12 +24,14 @@ static const char help[] =
     "       povgloss passes SCENE.pov [POV-Ray switches] [options] -o PASSES.exr\n"
     "       povgloss list SCENE.pov [POV-Ray switches]\n"
     "       povgloss probe SCENE.pov [POV-Ray switches] [options] -o PROBES.csv\n"
+    "       povgloss brute SCENE.pov [POV-Ray switches] [options] -o IMAGE\n"
     "       povgloss compare PROBES.csv IMAGE.exr [--phong P]\n"
     "\n"
     "Glossy reflections for POV-Ray scenes that say Gloss(300) in a finish (povgloss.inc).\n"
     "render draws the glossy image; passes writes what glossfilter needs to draw it, again and again;\n"
     "list shows the finishes that reflect, and the exponent that each has or that --gloss auto gives it.\n"
     "probe measures the true blurred reflection at a grid of pixels, by thousands of POV-Ray's rays each;\n"
+    "brute draws the glossy image by so many rays at every pixel, without a filter: slow and noisy;\n"
     "compare tells how far an image that was filtered with --layers is from it.\n"
     "POV-Ray's switches (+W640 +H480 +A0.3 +Ldir Declare=x=1 file.ini[section]) go to POV-Ray as they are.\n"
     "An animation (+KFF30) is drawn frame by frame, into files numbered as POV-Ray numbers them.\n"
@@ -59,13 +61,14 @@ static const char help_end[] =
     "  --error E            rays are added until the 95 % confidence interval is within +-E, for values\n"
     "                       above 1 within +-E of the value (default 0.002)\n"
     "  --phong P            in place of the scene's exponent; may be given again: each is measured\n"
+    "  --samples N          of brute: rays at every pixel, 1 to 65536 (default 64)\n"
     "  --seed N             of the random directions (default 0)\n"
     "\n"
     "Exit status: 0 ok, 2 wrong command line, 3 file, data or memory, 4 POV-Ray failed.\n";
 
-enum kind { KIND_RENDER, KIND_PASSES, KIND_LIST, KIND_PROBE, KIND_COMPARE, KIND_NONE };
+enum kind { KIND_RENDER, KIND_PASSES, KIND_LIST, KIND_PROBE, KIND_BRUTE, KIND_COMPARE, KIND_NONE };
 
-static const char *const kind_names[] = {"render", "passes", "list", "probe", "compare"};
+static const char *const kind_names[] = {"render", "passes", "list", "probe", "brute", "compare"};
 
 struct command {
     enum kind kind;
@@ -81,6 +84,7 @@ struct command {
     bool from_scene, resume;
     struct cli_filter filter;
     bool filter_options_used;
+    bool lobe_options_used; /* those of the filter that say nothing of the output */
     bool help, version;
 };
 
@@ -157,23 +161,26 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
     return RESULT_OK;
 }
 
-/* Options of povgloss probe and compare alone; *taken as above. */
+/* Options of povgloss probe, brute and compare alone; *taken as above. */
 static enum result take_probe_option(int argc, char **argv, int *index, struct command *command, bool *taken,
                                      struct error *err)
 {
     const struct {
         const char *name;
+        unsigned kinds;
         double low, high;
         double *number;
         int *whole;
     } options[] = {
-        {"--phong", 0, INFINITY, NULL, NULL},
-        {"--error", 1e-6, 1, &command->probe.error, NULL},
-        {"--grid", 1, IMAGE_MAX_SIDE, NULL, &command->probe.grid},
-        {"--seed", 0, 1e9, NULL, &command->probe.seed},
+        {"--phong", 1u << KIND_PROBE | 1u << KIND_BRUTE | 1u << KIND_COMPARE, 0, INFINITY, NULL, NULL},
+        {"--error", 1u << KIND_PROBE, 1e-6, 1, &command->probe.error, NULL},
+        {"--grid", 1u << KIND_PROBE, 1, IMAGE_MAX_SIDE, NULL, &command->probe.grid},
+        {"--samples", 1u << KIND_BRUTE, 1, 65536, NULL, &command->probe.rays},
+        {"--seed", 1u << KIND_PROBE | 1u << KIND_BRUTE, 0, 1e9, NULL, &command->probe.seed},
     };
-    int count = command->kind == KIND_COMPARE ? 1 : (int)(sizeof options / sizeof *options);
-    for (int i = 0; i < count; i++) {
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
+        if (!(options[i].kinds & 1u << command->kind))
+            continue;
         const char *value;
         double number;
         enum result result = cli_value(argc, argv, index, options[i].name, &value, err);
@@ -205,13 +212,16 @@ static enum result take_argument(int argc, char **argv, int *index, struct comma
         return RESULT_OK;
     }
     enum result result = take_own_option(argc, argv, index, command, &taken, err);
-    if (!result && !taken && (command->kind == KIND_PROBE || command->kind == KIND_COMPARE))
+    if (!result && !taken)
         result = take_probe_option(argc, argv, index, command, &taken, err);
     if (result || taken)
         return result;
     result = cli_filter_option(argc, argv, index, &command->filter, &taken, err);
     if (result || taken) {
         command->filter_options_used |= strcmp(argument, "--quiet") && strcmp(argument, "-q");
+        command->lobe_options_used |= strcmp(argument, "--quiet") && strcmp(argument, "-q") &&
+                                      strcmp(argument, "--layers") && strncmp(argument, "--format", 8) &&
+                                      strncmp(argument, "--bits", 6);
         return result;
     }
     ++*index;
@@ -248,14 +258,18 @@ static enum result find_scene(struct command *command, const struct povray_switc
 
 static enum result check_probe(const struct command *command, struct error *err)
 {
-    if (command->filter_options_used || command->depfile || command->resume || command->passes.subsample > 1)
+    const char *name = kind_names[command->kind];
+    bool filters = command->kind == KIND_BRUTE ? command->lobe_options_used : command->filter_options_used;
+    if (filters || command->depfile || command->resume || command->passes.subsample > 1)
         return error_set(err, RESULT_USAGE,
-                         "povgloss probe neither filters nor subsamples, and has no --depfile and no --resume");
+                         "povgloss %s neither filters nor subsamples, and has no --depfile and no --resume", name);
     if (frames_count(&command->passes.frames) > 1)
-        return error_set(err, RESULT_USAGE, "povgloss probe measures one frame: name it (+SF1 +EF1)");
-    if (!strcmp(command->output, "-") && isatty(STDOUT_FILENO))
+        return error_set(err, RESULT_USAGE, "povgloss %s draws one frame: name it (+SF1 +EF1)", name);
+    if (command->kind == KIND_BRUTE && command->exponents.size > sizeof(double))
+        return error_set(err, RESULT_USAGE, "povgloss brute: an image has one --phong");
+    if (command->kind == KIND_PROBE && !strcmp(command->output, "-") && isatty(STDOUT_FILENO))
         return error_set(err, RESULT_USAGE, "standard output is a terminal: redirect it, or name a file with -o");
-    return RESULT_OK;
+    return command->kind == KIND_BRUTE ? cli_check_output(command->output, &command->filter, err) : RESULT_OK;
 }
 
 static enum result check_command(struct command *command, const struct povray_switches *switches, struct error *err)
@@ -268,7 +282,7 @@ static enum result check_command(struct command *command, const struct povray_sw
         return RESULT_OK;
     if (!command->output)
         return error_set(err, RESULT_USAGE, "no output: add -o FILE (or -o - for standard output)");
-    if (command->kind == KIND_PROBE)
+    if (command->kind == KIND_PROBE || command->kind == KIND_BRUTE)
         return check_probe(command, err);
     if (command->depfile && !strcmp(command->output, "-"))
         return error_set(err, RESULT_USAGE, "--depfile needs the output's name for its rule: -o - has none");
@@ -306,7 +320,7 @@ static enum result take_arguments(int argc, char **argv, struct command *command
     bool has_command = command->kind < KIND_NONE;
     if (!has_command && argv[1][0] != '-')
         return error_set(err, RESULT_USAGE,
-                         "unknown command %s: render, passes, list, probe or compare, see povgloss --help", argv[1]);
+                         "unknown command %s: render, passes, list, probe, brute or compare, see povgloss --help", argv[1]);
     enum result result = RESULT_OK;
     for (int index = 1 + has_command; !result && index < argc;)
         result = take_argument(argc, argv, &index, command, switches, err);
@@ -547,6 +561,18 @@ static enum result measure(const struct command *command, struct passes *passes,
     return result;
 }
 
+static enum result draw_probes(const struct command *command, const struct probes *probes,
+                               const struct gbuffer *gbuffer, struct error *err)
+{
+    struct image glossy = {0};
+    enum result result = probes_image(probes, gbuffer, &glossy, err);
+    if (!result)
+        result = cli_write(command->output, &command->filter, gbuffer, &glossy, NULL, err);
+    image_free(&glossy);
+    return result;
+}
+
+/* probe, and brute: that measures every pixel. */
 static enum result probe(struct command *command, struct error *err)
 {
     struct progress progress = {.terminal = isatty(STDERR_FILENO), .frame = "", .shown = -1};
@@ -558,6 +584,10 @@ static enum result probe(struct command *command, struct error *err)
     command->passes.progress = command->filter.quiet ? no_progress : show_progress;
     command->passes.progress_context = &progress;
     command->passes.rays = true;
+    if (command->kind == KIND_BRUTE) {
+        command->probe.grid = IMAGE_MAX_SIDE;
+        command->probe.rays = command->probe.rays ? command->probe.rays : 64;
+    }
     command->probe.exponents = (const double *)(const void *)command->exponents.data;
     command->probe.exponent_count = (int)(command->exponents.size / sizeof(double));
     if (!result)
@@ -573,14 +603,15 @@ static enum result probe(struct command *command, struct error *err)
     if (!result)
         result = measure(command, passes, &probes, err);
     passes_close(passes);
-    int left = result ? 0 : probes_open(&probes);
+    int left = result || command->kind == KIND_BRUTE ? 0 : probes_open(&probes);
     if (left > 0)
         error_set(&note, RESULT_OK, "%s: %d of %d probes have a larger error than %g after %d rays: see their column error",
                   command->path, left, probes.count, command->probe.error, PROBE_MOST_RAYS);
     if (left > 0)
         warn(command, "", &note);
     if (!result)
-        result = probe_file_write(command->output, &probes, err);
+        result = command->kind == KIND_BRUTE ? draw_probes(command, &probes, &gbuffer, err)
+                                             : probe_file_write(command->output, &probes, err);
     probes_free(&probes);
     gbuffer_free(&gbuffer);
     return result;
@@ -613,7 +644,7 @@ int main(int argc, char **argv)
         printf("povgloss %s\n", POVGLOSS_VERSION);
     else if (!result && command.kind == KIND_LIST)
         result = list(&command, &err);
-    else if (!result && command.kind == KIND_PROBE)
+    else if (!result && (command.kind == KIND_PROBE || command.kind == KIND_BRUTE))
         result = probe(&command, &err);
     else if (!result && command.kind == KIND_COMPARE)
         result = compare(&command, &err);

@@ -184,7 +184,11 @@ enum result probes_begin(struct probes *probes, const struct gbuffer *gbuffer, c
     double cell = fmax(1, (double)phong->width / options->grid);
     struct buffer list = {0};
     enum result result = RESULT_OK;
-    *probes = (struct probes){.error = options->error, .seed = (unsigned)options->seed, .rays = PROBE_FIRST_RAYS};
+    *probes = (struct probes){.error = options->error,
+                              .seed = (unsigned)options->seed,
+                              .lobes = options->rays ? PROBE_LOBES : 1,
+                              .most = options->rays ? options->rays : PROBE_MOST_RAYS,
+                              .rays = options->rays ? options->rays : PROBE_FIRST_RAYS};
     for (double y = cell / 2; !result && y < phong->height; y += cell)
         for (double x = cell / 2; !result && x < phong->width; x += cell)
             result = add_pixel(&list, gbuffer, (int)x, (int)y, options, err);
@@ -223,15 +227,29 @@ static enum result add_face(struct buffer *text, const double ray[3], struct err
     return result ? result : buffer_add_text(text, "\n", err);
 }
 
+static unsigned lobe_seed(const struct probes *probes, int lobe)
+{
+    return hash(probes->seed * PROBE_LOBES + (unsigned)lobe);
+}
+
+static int lobe_of(const struct probes *probes, const struct probe *probe)
+{
+    return (int)(hash(hash((uint32_t)probe->x) + (uint32_t)probe->y) % (unsigned)probes->lobes);
+}
+
+unsigned probe_seed(const struct probes *probes, const struct probe *probe)
+{
+    return lobe_seed(probes, lobe_of(probes, probe));
+}
+
 /* The round's new rays of a lobe, as a mesh of one face each. */
 static enum result add_lobe(const struct probes *probes, int lobe, double phong, struct buffer *text, struct error *err)
 {
     long count = probes->rays - probes->rays_before;
-    enum result result = buffer_printf(text, err, "#declare povgloss_lobe%d = mesh2 { vertex_vectors { %ld,\n", lobe,
-                                       3 * count);
+    enum result result = buffer_printf(text, err, "mesh2 { vertex_vectors { %ld,\n", 3 * count);
     for (long i = 0; !result && i < count; i++) {
         double ray[3];
-        probe_ray(phong, probes->seed, probes->rays_before + i, ray);
+        probe_ray(phong, lobe_seed(probes, lobe), probes->rays_before + i, ray);
         result = add_face(text, ray, err);
     }
     if (!result)
@@ -241,6 +259,19 @@ static enum result add_lobe(const struct probes *probes, int lobe, double phong,
     return result ? result : buffer_add_text(text, "} }\n", err);
 }
 
+/* Those of an exponent, in an array. */
+static enum result add_lobes(const struct probes *probes, int exponent, double phong, struct buffer *text,
+                             struct error *err)
+{
+    enum result result = buffer_printf(text, err, "#declare povgloss_lobes%d = array[%d]\n", exponent, probes->lobes);
+    for (int lobe = 0; !result && lobe < probes->lobes; lobe++) {
+        result = buffer_printf(text, err, "#declare povgloss_lobes%d[%d] = ", exponent, lobe);
+        if (!result)
+            result = add_lobe(probes, lobe, phong, text, err);
+    }
+    return result;
+}
+
 static enum result add_vector(struct buffer *text, const char *before, double scale, const double v[3],
                               struct error *err)
 {
@@ -248,9 +279,10 @@ static enum result add_vector(struct buffer *text, const char *before, double sc
 }
 
 /* The lobe, turned to where the probe looks. */
-static enum result add_mesh(struct buffer *text, const struct probe *probe, int lobe, struct error *err)
+static enum result add_mesh(struct buffer *text, const struct probes *probes, const struct probe *probe, int exponent,
+                            struct error *err)
 {
-    enum result result = buffer_printf(text, err, "mesh { povgloss_lobe%d ", lobe);
+    enum result result = buffer_printf(text, err, "mesh { povgloss_lobes%d[%d] ", exponent, lobe_of(probes, probe));
     if (!result)
         result = add_vector(text, "matrix <", probe->scale, probe->across, err);
     if (!result)
@@ -270,18 +302,20 @@ static enum result add_mirror(struct buffer *text, const struct probe *probe, st
     return result ? result : buffer_printf(text, err, ">, %g }\n", probe->scale * MIRROR_RADIUS);
 }
 
-/* As many probes as a view may hold, at least one: together their rays and their lobes' faces. */
+/* As many probes as a view may hold, at least one: together their rays and their lobes' faces. POV-Ray looks through the
+ * meshes one by one for each ray, 0.5 ns each: with this many that takes as long as starting another process, 0.7 s. */
 static void choose_viewed(struct probes *probes)
 {
     long rays = probes->rays - probes->rays_before, room = PROBE_VIEW_RAYS;
+    int most = 1 + (int)(50000 / sqrt((double)rays));
     const struct probe *last = NULL;
     probes->viewed_count = 0;
     for (; probes->next < probes->count; probes->next++) {
         const struct probe *probe = &probes->list[probes->next];
         if (probe->done)
             continue;
-        long needed = rays * (last && last->phong == probe->phong ? 1 : 2);
-        if (last && needed > room)
+        long needed = rays * (last && last->phong == probe->phong ? 1 : 1 + probes->lobes);
+        if (last && (needed > room || probes->viewed_count == most))
             break;
         probes->viewed[probes->viewed_count++] = probes->next;
         room -= needed;
@@ -290,7 +324,7 @@ static void choose_viewed(struct probes *probes)
 }
 
 /* Whether the view's probe has another exponent than the one before. */
-static bool begins_lobe(const struct probes *probes, int index)
+static bool begins_exponent(const struct probes *probes, int index)
 {
     const int *viewed = probes->viewed + index;
     return index == 0 || probes->list[viewed[0]].phong != probes->list[viewed[-1]].phong;
@@ -301,12 +335,12 @@ enum result probes_view(struct probes *probes, struct buffer *text, int *width, 
     struct buffer meshes = {0}, mirrors = {0};
     enum result result = RESULT_OK;
     choose_viewed(probes);
-    for (int i = 0, lobe = 0; !result && i < probes->viewed_count; i++) {
+    for (int i = 0, exponent = 0; !result && i < probes->viewed_count; i++) {
         const struct probe *probe = &probes->list[probes->viewed[i]];
-        if (begins_lobe(probes, i))
-            result = add_lobe(probes, ++lobe, probe->phong, text, err);
+        if (begins_exponent(probes, i))
+            result = add_lobes(probes, ++exponent, probe->phong, text, err);
         if (!result)
-            result = add_mesh(&meshes, probe, lobe, err);
+            result = add_mesh(&meshes, probes, probe, exponent, err);
         if (!result)
             result = add_mirror(&mirrors, probe, err);
     }
@@ -318,7 +352,8 @@ enum result probes_view(struct probes *probes, struct buffer *text, int *width, 
                                "reflection { 1 } } }\nno_reflection no_shadow no_radiosity }\n",
                                meshes.data, mirrors.data);
     *width = PROBE_VIEW_WIDTH;
-    *height = 1 + (int)((probes->rays - probes->rays_before) / PROBE_VIEW_WIDTH * probes->viewed_count);
+    long rays = (probes->rays - probes->rays_before) * probes->viewed_count;
+    *height = 1 + (int)((rays + PROBE_VIEW_WIDTH - 1) / PROBE_VIEW_WIDTH);
     buffer_free(&meshes);
     buffer_free(&mirrors);
     return result;
@@ -363,17 +398,17 @@ static void estimate(struct probe *probe, long rays, double enough)
 enum result probes_take(struct probes *probes, const struct image *image, struct error *err)
 {
     long count = probes->rays - probes->rays_before;
-    double (*rays)[3] = malloc((size_t)count * sizeof *rays);
+    double (*rays)[3] = malloc((size_t)(count * probes->lobes) * sizeof *rays);
     if (!rays)
-        return error_memory(err, (double)count * sizeof *rays);
+        return error_memory(err, (double)count * probes->lobes * sizeof *rays);
     for (int i = 0; i < probes->viewed_count; i++) {
         struct probe *probe = &probes->list[probes->viewed[i]];
         double normal[3] = {dot(probe->across, probe->normal), dot(probe->up, probe->normal),
                             dot(probe->axis, probe->normal)};
-        for (long face = 0; begins_lobe(probes, i) && face < count; face++)
-            probe_ray(probe->phong, probes->seed, probes->rays_before + face, rays[face]);
+        for (long ray = 0; begins_exponent(probes, i) && ray < count * probes->lobes; ray++)
+            probe_ray(probe->phong, lobe_seed(probes, (int)(ray / count)), probes->rays_before + ray % count, rays[ray]);
         for (long face = 0; face < count; face++) {
-            if (dot(rays[face], normal) >= 0)
+            if (dot(rays[lobe_of(probes, probe) * count + face], normal) >= 0)
                 continue;
             int set = (int)(face % PROBE_SETS);
             probe->count[set]++;
@@ -384,6 +419,32 @@ enum result probes_take(struct probes *probes, const struct image *image, struct
     }
     free(rays);
     return RESULT_OK;
+}
+
+enum result probes_image(const struct probes *probes, const struct gbuffer *gbuffer, struct image *image,
+                         struct error *err)
+{
+    int width = gbuffer->phong.width, height = gbuffer->phong.height;
+    struct image counts = {0};
+    enum result result = image_alloc(image, width, height, 3, err);
+    if (!result)
+        result = image_alloc(&counts, width, height, 1, err);
+    for (int i = 0; !result && i < probes->count; i++) {
+        const struct probe *probe = &probes->list[i];
+        for (int y = probe->y - 1; y <= probe->y + 1; y++)
+            for (int x = probe->x - 1; x <= probe->x + 1; x++) {
+                bool own = x == probe->x && y == probe->y;
+                if (x < 0 || x >= width || y < 0 || y >= height || (!own && image_row(&gbuffer->phong, 0, y)[x] > 0))
+                    continue;
+                float count = image_row(&counts, 0, y)[x] += 1;
+                for (int channel = 0; channel < 3; channel++) {
+                    float *mean = &image_row(image, channel, y)[x];
+                    *mean += ((float)probe->value[channel] - *mean) / count;
+                }
+            }
+    }
+    image_free(&counts);
+    return result;
 }
 
 int probes_open(const struct probes *probes)
@@ -400,7 +461,7 @@ bool probes_left(struct probes *probes)
         for (int i = probes->next; i < probes->count; i++)
             if (!probes->list[i].done)
                 return true;
-    if (!probes_open(probes) || probes->rays >= PROBE_MOST_RAYS)
+    if (!probes_open(probes) || probes->rays >= probes->most)
         return false;
     if (probes->next > 0) {
         probes->rays_before = probes->rays;

@@ -23,6 +23,7 @@ enum {
     PROBE_SETS = 16,
     PROBE_FIRST_RAYS = 1024,     /* a probe's rays after the first round */
     PROBE_MOST_RAYS = 1 << 18,   /* and after the last */
+    PROBE_LOBES = 64,            /* with few rays probes must not all have the same ones */
     PROBE_VIEW_WIDTH = 1024,     /* of the images, pixels */
     PROBE_VIEW_RAYS = 1 << 22,   /* in one image, with the faces of its lobes, unless one probe has more */
 };
@@ -49,6 +50,7 @@ struct probe_options {
     double error;            /* enough: for values above 1 relative to them */
     const double *exponents; /* in place of the scene's; none: NULL, 0 */
     int exponent_count;
+    int rays;                /* of each probe; 0: as many as the error asks for */
     int seed;
 };
 
@@ -57,6 +59,8 @@ struct probes {
     int count;
     double error;
     unsigned seed;
+    int lobes;              /* sets of directions of one exponent, of which each probe has one */
+    long most;              /* rays of a probe */
     long rays, rays_before; /* of each probe after this round, and before it */
     int next;               /* first probe of the round's next view */
     int *viewed, viewed_count; /* those of the view that was made last */
@@ -67,6 +71,11 @@ struct probes {
 MUST_CHECK enum result probes_begin(struct probes *probes, const struct gbuffer *gbuffer,
                                     const struct probe_options *options, struct error *err);
 void probes_free(struct probes *probes);
+
+/* Puts the values at their pixels. Next to them, at silhouettes, the mean of the probes around: an image of the gbuffer's
+ * size (R G B, allocated here), which is black elsewhere. */
+MUST_CHECK enum result probes_image(const struct probes *probes, const struct gbuffer *gbuffer, struct image *image,
+                                    struct error *err);
 
 /* Whether rays are missing; closes a round that is over. */
 bool probes_left(struct probes *probes);
@@ -82,7 +91,10 @@ MUST_CHECK enum result probes_view(struct probes *probes, struct buffer *text, i
 /* Takes the image (R G B) of the last probes_view. Infinite pixels count as 65504, where POV-Ray's half floats end. */
 MUST_CHECK enum result probes_take(struct probes *probes, const struct image *image, struct error *err);
 
-/* Ray `index` of all rays of a probe of this exponent, in its frame: z along the axis; the set is index % PROBE_SETS. */
+/* Ray `index` of all rays of a lobe of this exponent, in its frame: z along the axis; the set is index % PROBE_SETS. */
 void probe_ray(double phong, unsigned seed, long index, double ray[3]);
+
+/* The seed of a probe's lobe. */
+unsigned probe_seed(const struct probes *probes, const struct probe *probe);
 
 #endif

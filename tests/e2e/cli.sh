@@ -62,7 +62,7 @@ tells_version() {
 
 filter_options=(--phong --roughness --mode --weights --formula --window --energy --max-angle --max-radius --radius-step
     --threads --isa --format --bits)
-own_options=(--depfile -o --from-scene --resume --subsample --jobs --keep --povray --grid --error --seed)
+own_options=(--depfile -o --from-scene --resume --subsample --jobs --keep --povray --grid --error --samples --seed)
 check "povgloss --help names every option" \
     helps povgloss "${own_options[@]}" "${filter_options[@]}" --layers -q --quiet --help --version
 check "glossfilter --help names every option" \
@@ -85,6 +85,13 @@ for option in --layers --radius-step=2 --depfile=x.d --resume --subsample=2; do
     check "povgloss probe with $option" refuses povgloss "povgloss probe neither filters" probe scene.pov -o x.csv "$option"
 done
 check "povgloss probe of an animation" refuses povgloss "one frame" probe scene.pov +KFF3 -o x.csv
+for option in --radius-step=2 --max-radius=3 --resume --subsample=2; do
+    check "povgloss brute with $option" refuses povgloss "povgloss brute neither filters" brute scene.pov -o x.exr "$option"
+done
+check "povgloss brute without a format" refuses povgloss "--format exr|png" brute scene.pov -o picture
+check "povgloss brute with layers in a PNG" refuses povgloss "--layers" brute scene.pov -o x.png --layers
+check "povgloss brute with two exponents" refuses povgloss "one --phong" brute scene.pov -o x.exr --phong 1 --phong 2
+check "povgloss: --grid is the probes'" refuses povgloss "unknown option --grid" render scene.pov -o x.png --grid 3
 check "povgloss compare with one file" refuses povgloss "needs two files" compare probes.csv
 check "povgloss compare with three files" refuses povgloss "needs two files" compare probes.csv a.exr b.exr
 check "povgloss compare with two exponents" refuses povgloss "one --phong" compare probes.csv a.exr --phong 1 --phong 2
@@ -143,6 +150,8 @@ done << 'END'
 --phong -inf -1e-9 1,5
 --seed 1.5 99999999999999999999
 END
+check "povgloss brute: wrong values of --samples" \
+    refuses_values povgloss --samples "must be" "0 1.5 65537" brute scene.pov -o x.exr
 for option in --keep --povray; do
     check "povgloss: $option without a value" refuses povgloss "$option needs a value" render scene.pov -o x.png "$option"
 done

@@ -185,6 +185,31 @@ against_itself() {
 }
 check 'compare__images__as_far_off_as_they_are' against_itself
 
+# ---- every pixel by the same rays
+
+# With mirrors in place of the lobes the picture is POV-Ray's own; with lobes it nears the probes as the rays grow in number.
+brute_mirror() {
+    povray +Iconvex.pov "$library" "${size[@]}" -D +FE +Otruth.exr > log 2>&1 || { tail -5 log; return 1; }
+    "$bin/povgloss" brute convex.pov "$library" "${size[@]}" --quiet --phong inf --samples 1 -o brute.exr || return 1
+    same_picture truth.exr brute.exr
+}
+
+brute_nears() {
+    local count
+    cp convex.pov near.pov
+    probe near --grid 20 || return 1
+    for count in 4 64; do
+        "$bin/povgloss" brute near.pov "$library" "${size[@]}" --quiet --samples "$count" --layers -o "brute$count.exr" &&
+            "$bin/povgloss" compare near.csv "brute$count.exr" > "brute$count.txt" || return 1
+    done
+    cat brute4.txt brute64.txt
+    awk '/^rmse/ { rmse[FILENAME] = $2 } /^bias/ { bias[FILENAME] = $2 }
+         END { exit !(rmse["brute64.txt"] < 0.35 * rmse["brute4.txt"] && bias["brute64.txt"]^2 < rmse["brute64.txt"]^2 / 4) }' \
+        brute4.txt brute64.txt
+}
+check 'brute__mirror__povrays_own_picture' brute_mirror
+check 'brute__more_rays__nearer_to_the_probes' brute_nears
+
 # refuses STATUS MESSAGE COMMAND...
 refuses() {
     local expected=$1 message=$2

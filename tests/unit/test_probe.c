@@ -78,7 +78,7 @@ static void render(const struct probes *probes, sky *of, const double vector[3],
         for (long face = 0; face < rays; face++) {
             double ray[3], direction[3];
             long pixel = PROBE_VIEW_WIDTH + i * rays + face;
-            probe_ray(probe->phong, probes->seed, probes->rays_before + face, ray);
+            probe_ray(probe->phong, probe_seed(probes, probe), probes->rays_before + face, ray);
             for (int axis = 0; axis < 3; axis++)
                 direction[axis] = ray[0] * probe->across[axis] + ray[1] * probe->up[axis] + ray[2] * probe->axis[axis];
             double along = 2 * dot(direction, probe->normal);
@@ -334,10 +334,55 @@ static void probes__more_than_one_view__all_measured(void **state)
         buffer_free(&text);
         views++;
     }
-    assert_int_equal(views, 2);
+    assert_int_equal(views, 6);
     for (int i = 0; i < probes.count; i++)
         assert_near(probes.list[i].value[0], 0.5, 1e-6);
     assert_int_equal(probes_open(&probes), 0);
+    probes_free(&probes);
+    gbuffer_free(&gbuffer);
+}
+
+static void probe__fixed_rays__no_more_and_no_fewer(void **state)
+{
+    (void)state;
+    static const int rays[] = {1, 7, 100};
+    for (int i = 0; i < 3; i++) {
+        struct gbuffer gbuffer;
+        struct probes probes;
+        double sum = 0;
+        make_floor(&gbuffer, 40, 40, pi / 2, 1);
+        measure(&gbuffer, &(struct probe_options){.grid = 40, .error = 1e-6, .rays = rays[i]}, half, (double[]){1, 0, 0},
+                &probes);
+        assert_int_equal(probes.count, 1600);
+        for (int j = 0; j < probes.count; j++) {
+            assert_int_equal(probes.list[j].samples, rays[i]);
+            sum += probes.list[j].value[0];
+        }
+        assert_near(sum / probes.count, 0.5, 2 / sqrt(1600.0 * rays[i]));
+        probes_free(&probes);
+        gbuffer_free(&gbuffer);
+    }
+}
+
+/* A probe's value is at its pixel; a pixel beside glossy ones, at a silhouette, has their mean; others are black. */
+static void probes_image__silhouettes__mean_of_the_probes_around(void **state)
+{
+    (void)state;
+    struct gbuffer gbuffer;
+    struct probes probes;
+    struct image image;
+    make_floor(&gbuffer, 6, 1, 1, 50);
+    for (int x = 2; x < 6; x++)
+        image_row(&gbuffer.phong, 0, 0)[x] = x == 4 ? 50 : 0;
+    measure(&gbuffer, &(struct probe_options){.grid = 6, .rays = 16}, uniform, (double[3]){1}, &probes);
+    assert_int_equal(probes.count, 3);
+    for (int i = 0; i < 3; i++)
+        probes.list[i].value[2] = 1 + probes.list[i].x;
+    assert_ok(probes_image(&probes, &gbuffer, &image, &err), err);
+    static const float blue[] = {1, 2, 2, 5, 5, 5};
+    for (int x = 0; x < 6; x++)
+        assert_near(image_row(&image, 2, 0)[x], blue[x], 1e-6);
+    image_free(&image);
     probes_free(&probes);
     gbuffer_free(&gbuffer);
 }
@@ -354,6 +399,8 @@ int main(void)
         cmocka_unit_test(probe__stated_error__holds_the_truth),
         cmocka_unit_test(probe__small_error__more_rays),
         cmocka_unit_test(probe__bright_sky__relative_error),
+        cmocka_unit_test(probe__fixed_rays__no_more_and_no_fewer),
+        cmocka_unit_test(probes_image__silhouettes__mean_of_the_probes_around),
         cmocka_unit_test(probe_ray__each_set__stratified),
         cmocka_unit_test(probes_begin__grid__glossy_centres_of_its_cells),
         cmocka_unit_test(probes__several_exponents__each_at_every_pixel),
