@@ -191,7 +191,8 @@ static enum result take_probe_option(int argc, char **argv, int *index, struct c
         }
         *taken = true;
         if (options[i].whole)
-            return cli_integer(options[i].name, value, (int)options[i].low, (int)options[i].high, options[i].whole, err);
+            return cli_integer(options[i].name, value, (int)options[i].low, (int)options[i].high, options[i].whole,
+                               err);
         result = cli_number(options[i].name, value, options[i].low, options[i].high, &number, err);
         if (!result && options[i].number)
             *options[i].number = number;
@@ -320,7 +321,8 @@ static enum result take_arguments(int argc, char **argv, struct command *command
     bool has_command = command->kind < KIND_NONE;
     if (!has_command && argv[1][0] != '-')
         return error_set(err, RESULT_USAGE,
-                         "unknown command %s: render, passes, list, probe, brute or compare, see povgloss --help", argv[1]);
+                         "unknown command %s: render, passes, list, probe, brute or compare, see povgloss --help",
+                         argv[1]);
     enum result result = RESULT_OK;
     for (int index = 1 + has_command; !result && index < argc;)
         result = take_argument(argc, argv, &index, command, switches, err);
@@ -334,8 +336,8 @@ static enum result check_comparison(const struct command *command, struct error 
     const struct passes_options *passes = &command->passes;
     if (command->output || command->filter_options_used || command->depfile || passes->keep || command->resume ||
         command->from_scene || passes->subsample > 1 || passes->gloss.automatic || passes->gloss.all)
-        return error_set(err, RESULT_USAGE, "povgloss compare takes probes, an image and --phong, and writes to standard "
-                                            "output");
+        return error_set(err, RESULT_USAGE,
+                         "povgloss compare takes probes, an image and --phong, and writes to standard output");
     if (!command->image)
         return error_set(err, RESULT_USAGE, "povgloss compare needs two files: PROBES.csv and IMAGE.exr");
     if (command->exponents.size > sizeof(double))
@@ -539,7 +541,8 @@ static enum result run(struct command *command, struct error *err)
 }
 
 /* Rounds of rays until every probe is exact enough, or has as many as are allowed. */
-static enum result measure(const struct command *command, struct passes *passes, struct probes *probes, struct error *err)
+static enum result measure(const struct command *command, struct passes *passes, struct probes *probes,
+                           struct error *err)
 {
     enum result result = RESULT_OK;
     long round = 0;
@@ -605,7 +608,8 @@ static enum result probe(struct command *command, struct error *err)
     passes_close(passes);
     int left = result || command->kind == KIND_BRUTE ? 0 : probes_open(&probes);
     if (left > 0)
-        error_set(&note, RESULT_OK, "%s: %d of %d probes have a larger error than %g after %d rays: see their column error",
+        error_set(&note, RESULT_OK,
+                  "%s: %d of %d probes have a larger error than %g after %d rays: see their column error",
                   command->path, left, probes.count, command->probe.error, PROBE_MOST_RAYS);
     if (left > 0)
         warn(command, "", &note);

@@ -298,8 +298,8 @@ static enum result add_coding_texture(const struct pass *pass, struct buffer *te
     if (!result)
         result = position_code_pigment(text, false, pass->digits, err);
     return result ? result : buffer_add_text(text,
-                                             "finish { emission 1 ambient 0 diffuse 0 specular 0 phong 0 irid { 0 } crand 0 "
-                                             "reflection { 0 } } }\n",
+                                             "finish { emission 1 ambient 0 diffuse 0 specular 0 phong 0 irid { 0 } "
+                                             "crand 0 reflection { 0 } } }\n",
                                              err);
 }
 
@@ -440,7 +440,9 @@ bool pass_is_mirror(enum pass_id id)
 
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
-    if (id == PASS_PROBE || pass_is_mirror(id) || (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts))
+    if (id == PASS_PROBE || pass_is_mirror(id))
+        return false;
+    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
         return false;
     return id == PASS_BASE || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }

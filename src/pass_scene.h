@@ -22,7 +22,7 @@ enum pass_id {
     PASS_EXPONENT,
     PASS_MIRROR, /* the mirrored rays' directions, for probes: an endpoint may lie behind glass that bends the ray */
     PASS_MIRROR_LOW,
-    PASS_PROBE, /* what mirrored rays see in PASS_PROBE_VIEW, the mirrors and the camera of the caller; not of the picture */
+    PASS_PROBE, /* what mirrored rays see in PASS_PROBE_VIEW, the mirrors and the camera of the caller */
     PASS_COUNT,
 };
 

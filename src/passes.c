@@ -531,7 +531,8 @@ enum result passes_open(const struct passes_options *options, struct passes **op
                         struct error *err)
 {
     const struct povray_switches *switches = options->switches;
-    assert(options->subsample >= 1 && !(options->rays && options->subsample > 1) && (options->subsample == 1 || (switches->width > 0 && switches->height > 0)));
+    assert(!(options->rays && options->subsample > 1));
+    assert(options->subsample >= 1 && (options->subsample == 1 || (switches->width > 0 && switches->height > 0)));
     struct passes *passes = *opened = calloc(1, sizeof *passes);
     if (!passes)
         return error_memory(err, sizeof *passes);

@@ -50,8 +50,9 @@ MUST_CHECK enum result passes_open(const struct passes_options *options, struct 
 MUST_CHECK enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
                                      struct error *err);
 
-/* Renders what mirrored rays see of the frame that passes_render drew last. `view` is scene text: a camera, and mirrors that
- * no mirrored ray sees; the camera sees nothing but those. *image (R G B, linear) has the size given; the caller frees it. */
+/* Renders what mirrored rays see of the frame that passes_render drew last. `view` is scene text: a camera, and mirrors
+ * that no mirrored ray sees; the camera sees nothing but those. *image (R G B, linear) has the size given; the caller
+ * frees it. */
 MUST_CHECK enum result passes_view(struct passes *passes, int frame, const struct buffer *view, int width, int height,
                                    struct image *image, struct error *err);
 

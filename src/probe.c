@@ -11,8 +11,8 @@
 #define START 1e-3
 #define MIRROR_RADIUS 2e-5
 #define FAR_AWAY 100.0
-/* Mirrors stand this far above the surface, as a share of the distance from the origin or the eye: positions are known to
- * about a tenth of it. */
+/* Mirrors stand this far above the surface, as a share of the distance from the origin or the eye: positions are known
+ * to about a tenth of it. */
 #define LIFT 1e-6
 /* Two-sided 95 % of Student's t with PROBE_SETS - 1 degrees of freedom. */
 #define STUDENT_T 2.131
@@ -195,7 +195,8 @@ enum result probes_begin(struct probes *probes, const struct gbuffer *gbuffer, c
     probes->list = (struct probe *)(void *)list.data;
     probes->count = (int)(list.size / sizeof *probes->list);
     if (!result && !probes->count)
-        result = error_set(err, RESULT_DATA, "no pixel of the grid is glossy: a --grid above %d has more", options->grid);
+        result = error_set(err, RESULT_DATA, "no pixel of the grid is glossy: a --grid above %d has more",
+                           options->grid);
     if (!result)
         qsort(probes->list, (size_t)probes->count, sizeof *probes->list, by_exponent_and_pixel);
     if (!result && !(probes->viewed = malloc((size_t)probes->count * sizeof *probes->viewed)))
@@ -212,7 +213,8 @@ void probes_free(struct probes *probes)
 
 /* ---- the camera ---- */
 
-/* A triangle whose centre is where the ray starts, and whose normal, in POV-Ray's left-handed space, is its direction. */
+/* A triangle whose centre is where the ray starts, and whose normal, in POV-Ray's left-handed space, is its
+ * direction. */
 static enum result add_face(struct buffer *text, const double ray[3], struct error *err)
 {
     double across[3], up[3];
@@ -302,8 +304,9 @@ static enum result add_mirror(struct buffer *text, const struct probe *probe, st
     return result ? result : buffer_printf(text, err, ">, %g }\n", probe->scale * MIRROR_RADIUS);
 }
 
-/* As many probes as a view may hold, at least one: together their rays and their lobes' faces. POV-Ray looks through the
- * meshes one by one for each ray, 0.5 ns each: with this many that takes as long as starting another process, 0.7 s. */
+/* As many probes as a view may hold, at least one: together their rays and their lobes' faces. POV-Ray looks through
+ * the meshes one by one for each ray, 0.5 ns each: with this many that takes as long as starting another process, 0.7
+ * s. */
 static void choose_viewed(struct probes *probes)
 {
     long rays = probes->rays - probes->rays_before, room = PROBE_VIEW_RAYS;
@@ -361,8 +364,8 @@ enum result probes_view(struct probes *probes, struct buffer *text, int *width, 
 
 /* ---- the estimate ---- */
 
-/* POV-Ray finds a pixel's face by y - 1/2, cut to a whole number: every row of faces comes one row late, after a first row
- * that shows the same. */
+/* POV-Ray finds a pixel's face by y - 1/2, cut to a whole number: every row of faces comes one row late, after a first
+ * row that shows the same. */
 static double seen(const struct image *image, int channel, long face)
 {
     double value = (double)image_row(image, channel, 1 + (int)(face / image->width))[face % image->width];
@@ -406,7 +409,8 @@ enum result probes_take(struct probes *probes, const struct image *image, struct
         double normal[3] = {dot(probe->across, probe->normal), dot(probe->up, probe->normal),
                             dot(probe->axis, probe->normal)};
         for (long ray = 0; begins_exponent(probes, i) && ray < count * probes->lobes; ray++)
-            probe_ray(probe->phong, lobe_seed(probes, (int)(ray / count)), probes->rays_before + ray % count, rays[ray]);
+            probe_ray(probe->phong, lobe_seed(probes, (int)(ray / count)), probes->rays_before + ray % count,
+                      rays[ray]);
         for (long face = 0; face < count; face++) {
             if (dot(rays[lobe_of(probes, probe) * count + face], normal) >= 0)
                 continue;

@@ -2,14 +2,14 @@
  *
  *   L(a) = integral of L0(d) cos^p(d, m) over d  /  integral of cos^p(d, m) over d,
  *
- * d over the directions within 90 degrees of the mirror direction m = b - a that lie above the surface's horizon; its
- * normal is the bisector of m and the direction to the eye, of a bumped surface the bumped one. L0(d) is the linear
- * radiance that a mirrored ray sees from a along d. With p = infinity L is L0.
+ * d over the directions within 90 degrees of the mirror direction m that lie above the surface's horizon; its normal is
+ * the bisector of m and the direction to the eye, of a bumped surface the bumped one. L0(d) is the linear radiance that
+ * a mirrored ray sees from a along d. With p = infinity L is L0.
  *
- * Directions are drawn with density cos^p, so that all count the same: PROBE_SETS sets of points, each a (0, 2)-sequence
- * with a random scrambling of its own (Owen, 1995), turned about m at random for each probe. The sets' means are
- * independent: their spread gives the error. Probes are measured in rounds, each with four times as many rays, until the
- * error is small enough:
+ * Directions are drawn with density cos^p, so that all count the same: PROBE_SETS sets of points, each a
+ * (0, 2)-sequence with a random scrambling of its own (Owen, 1995), turned about m at random for each probe. The sets'
+ * means are independent: their spread gives the error. Probes are measured in rounds, each with four times as many
+ * rays, until the error is small enough:
  *
  *   while (probes_left(&probes)) { probes_view -> rendered by POV-Ray -> probes_take }
  */
@@ -66,14 +66,14 @@ struct probes {
     int *viewed, viewed_count; /* those of the view that was made last */
 };
 
-/* Chooses the pixels: the centre of every grid cell where that is glossy. RESULT_DATA where none is. The gbuffer must have
- * the view rays. The caller frees *probes. */
+/* Chooses the pixels: the centre of every grid cell where that is glossy. RESULT_DATA where none is. The gbuffer must
+ * have the eye's rays and the mirrored ones. The caller frees *probes. */
 MUST_CHECK enum result probes_begin(struct probes *probes, const struct gbuffer *gbuffer,
                                     const struct probe_options *options, struct error *err);
 void probes_free(struct probes *probes);
 
-/* Puts the values at their pixels. Next to them, at silhouettes, the mean of the probes around: an image of the gbuffer's
- * size (R G B, allocated here), which is black elsewhere. */
+/* Puts the values at their pixels. Next to them, at silhouettes, the mean of the probes around: an image of the
+ * gbuffer's size (R G B, allocated here), which is black elsewhere. */
 MUST_CHECK enum result probes_image(const struct probes *probes, const struct gbuffer *gbuffer, struct image *image,
                                     struct error *err);
 
@@ -83,8 +83,8 @@ bool probes_left(struct probes *probes);
 /* How many probes the round measures. */
 int probes_open(const struct probes *probes);
 
-/* The scene text of the next rays: a mesh_camera, and a tiny mirror at each probe. Nothing but the mirrors may be seen by
- * the camera, all else by what they mirror. The image has *width x *height pixels. */
+/* The scene text of the next rays: a mesh_camera, and a tiny mirror at each probe. Nothing but the mirrors may be seen
+ * by the camera, all else by what they mirror. The image has *width x *height pixels. */
 MUST_CHECK enum result probes_view(struct probes *probes, struct buffer *text, int *width, int *height,
                                    struct error *err);
 

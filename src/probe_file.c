@@ -19,10 +19,10 @@ enum result probe_file_write(const char *path, const struct probes *probes, stru
     enum result result = buffer_add_text(&text, header, err);
     for (int i = 0; !result && i < probes->count; i++) {
         const struct probe *probe = &probes->list[i];
-        result = buffer_printf(&text, err, "%d,%d,%.9g,%.9g,%.9g,%.9g,%.3g,%ld,%.6g,%.9g,%.9g,%.9g\n", probe->x, probe->y,
-                               probe->phong, probe->value[0], probe->value[1], probe->value[2], probe->error,
-                               probe->samples, probe->above, (double)probe->specular[0], (double)probe->specular[1],
-                               (double)probe->specular[2]);
+        result = buffer_printf(&text, err, "%d,%d,%.9g,%.9g,%.9g,%.9g,%.3g,%ld,%.6g,%.9g,%.9g,%.9g\n",
+                               probe->x, probe->y, probe->phong, probe->value[0], probe->value[1], probe->value[2],
+                               probe->error, probe->samples, probe->above, (double)probe->specular[0],
+                               (double)probe->specular[1], (double)probe->specular[2]);
     }
     if (!result)
         result = output_file_open(&file, path, err);
@@ -104,8 +104,8 @@ static enum result choose(struct probe *list, int *count, double phong, const ch
     qsort(list, (size_t)kept, sizeof *list, by_pixel);
     for (int i = 1; i < kept; i++)
         if (!by_pixel(&list[i - 1], &list[i]))
-            return error_set(err, RESULT_DATA, "%s: has several exponents of one pixel: choose the image's with --phong",
-                             path);
+            return error_set(err, RESULT_DATA,
+                             "%s: has several exponents of one pixel: choose the image's with --phong", path);
     return RESULT_OK;
 }
 

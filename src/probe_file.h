@@ -16,8 +16,8 @@
 /* Writes `path` ("-": standard output); a file appears whole or not at all. */
 MUST_CHECK enum result probe_file_write(const char *path, const struct probes *probes, struct error *err);
 
-/* Reads a table into a new list, which the caller frees; of a probe's members those above. RESULT_DATA with the line for a
- * file that is no such table. */
+/* Reads a table into a new list, which the caller frees; of a probe's members those above. RESULT_DATA with the line
+ * for a file that is no such table. */
 MUST_CHECK enum result probe_file_read(const char *path, struct probe **list, int *count, struct error *err);
 
 /* How far an image is from the truth, linear. */

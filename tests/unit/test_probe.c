@@ -49,8 +49,8 @@ static double too_bright(const double direction[3], const double vector[3])
     return INFINITY;
 }
 
-/* A floor y = 0 under nothing but sky. The eye's rays come down by `steepness` radians in the plane z = 0; one pixel more
- * to the right is one unit more of x. */
+/* A floor y = 0 under nothing but sky. The eye's rays come down by `steepness` radians in the plane z = 0; one pixel
+ * more to the right is one unit more of x. */
 static void make_floor(struct gbuffer *gbuffer, int width, int height_px, double steepness, float phong)
 {
     gbuffer_alloc(gbuffer, width, height_px);
@@ -136,9 +136,9 @@ static void probe__uniform_sky__its_radiance(void **state)
         }
 }
 
-/* The half space is tilted by an angle from the plane through the mirror direction: for p = 1 the lit part of the lobe is a
- * half disc and a half ellipse (Nusselt), (1 + sin angle)/2 of it; for p = 0 a lune. Seen straight from above, so that no
- * direction lies below the horizon. */
+/* The half space is tilted by an angle from the plane through the mirror direction: for p = 1 the lit part of the lobe
+ * is a half disc and a half ellipse (Nusselt), (1 + sin angle)/2 of it; for p = 0 a lune. Seen straight from above, so
+ * that no direction lies below the horizon. */
 static void probe__half_black_half_white_sky__the_share_of_the_white(void **state)
 {
     (void)state;
@@ -162,8 +162,8 @@ static void probe__gradient__shrinks_with_the_lobe(void **state)
         assert_near(measure_one(pi / 2, phong, 3e-4, gradient, v).value[0], 0.9 * (phong + 1) / (phong + 2), 5e-4);
 }
 
-/* What lies between the horizon and the lobe's own end is a lune of the angle 90 degrees + steepness: its solid angle is
- * pi + 2 steepness, and its projection on the floor (1 + sin)/2 of the disc. */
+/* What lies between the horizon and the lobe's own end is a lune of the angle 90 degrees + steepness: its solid angle
+ * is pi + 2 steepness, and its projection on the floor (1 + sin)/2 of the disc. */
 static void probe__wide_lobe__cut_at_the_horizon(void **state)
 {
     (void)state;
@@ -190,8 +190,8 @@ static void probe__infinite_radiance__the_largest_half_float(void **state)
     assert_near(measure_one(0.4, 10, 1e-3, too_bright, NULL).value[0], 65504, 0.1);
 }
 
-/* With a lobe that is cut in two the stated interval holds the truth 95 times in 100: of 300 seeds at least 90 %, at all
- * steps of refinement. */
+/* With a lobe that is cut in two the stated interval holds the truth 95 times in 100: of 300 seeds at least 90 %, at
+ * all steps of refinement. */
 static void probe__stated_error__holds_the_truth(void **state)
 {
     (void)state;
@@ -204,7 +204,8 @@ static void probe__stated_error__holds_the_truth(void **state)
             struct gbuffer gbuffer;
             struct probes probes;
             make_floor(&gbuffer, 1, 1, pi / 2, 1);
-            measure(&gbuffer, &(struct probe_options){.grid = 1, .error = errors[i], .seed = seed}, half, towards, &probes);
+            measure(&gbuffer, &(struct probe_options){.grid = 1, .error = errors[i], .seed = seed}, half, towards,
+                    &probes);
             double off = probes.list[0].value[0] - truth;
             assert_true(probes.list[0].error <= errors[i]);
             held += fabs(off) <= probes.list[0].error;
@@ -223,7 +224,8 @@ static void probe__small_error__more_rays(void **state)
 {
     (void)state;
     const double towards[3] = {1, 0.02, 0.03};
-    struct probe coarse = measure_one(pi / 2, 10, 0.1, half, towards), fine = measure_one(pi / 2, 10, 1e-3, half, towards);
+    struct probe coarse = measure_one(pi / 2, 10, 0.1, half, towards);
+    struct probe fine = measure_one(pi / 2, 10, 1e-3, half, towards);
     struct probe finest = measure_one(pi / 2, 10, 1e-6, half, towards);
     assert_int_equal(coarse.samples, PROBE_FIRST_RAYS);
     assert_in_range(fine.samples, 4 * PROBE_FIRST_RAYS, PROBE_MOST_RAYS / 4);
@@ -285,7 +287,8 @@ static void probes_begin__grid__glossy_centres_of_its_cells(void **state)
     for (int y = 0; y < 20; y++)
         for (int x = 0; x < 40; x++)
             image_row(&gbuffer.phong, 0, y)[x] = 0;
-    assert_int_equal(probes_begin(&probes, &gbuffer, &(struct probe_options){.grid = 4, .error = 1}, &err), RESULT_DATA);
+    const struct probe_options options = {.grid = 4, .error = 1};
+    assert_int_equal(probes_begin(&probes, &gbuffer, &options, &err), RESULT_DATA);
     assert_non_null(strstr(err.text, "--grid above 4"));
     probes_free(&probes);
     gbuffer_free(&gbuffer);
@@ -351,8 +354,8 @@ static void probe__fixed_rays__no_more_and_no_fewer(void **state)
         struct probes probes;
         double sum = 0;
         make_floor(&gbuffer, 40, 40, pi / 2, 1);
-        measure(&gbuffer, &(struct probe_options){.grid = 40, .error = 1e-6, .rays = rays[i]}, half, (double[]){1, 0, 0},
-                &probes);
+        measure(&gbuffer, &(struct probe_options){.grid = 40, .error = 1e-6, .rays = rays[i]}, half,
+                (double[]){1, 0, 0}, &probes);
         assert_int_equal(probes.count, 1600);
         for (int j = 0; j < probes.count; j++) {
             assert_int_equal(probes.list[j].samples, rays[i]);
