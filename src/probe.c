@@ -372,9 +372,12 @@ static double seen(const struct image *image, int channel, long face)
     return value < LARGEST_HALF ? value : LARGEST_HALF;
 }
 
-/* The mean of all rays, and the spread of the sets' own means. A set without rays above the horizon says nothing. */
+/* The mean of all rays, and the spread of the sets' own means. A set without rays above the horizon says nothing. The
+ * spread of the first round may have missed what is rare: it is believed only if it is ten times smaller than asked
+ * for. */
 static void estimate(struct probe *probe, long rays, double enough)
 {
+    double believed = rays > PROBE_FIRST_RAYS ? enough : enough / 10;
     int sets = 0;
     probe->samples = 0;
     for (int set = 0; set < PROBE_SETS; set++) {
@@ -394,7 +397,7 @@ static void estimate(struct probe *probe, long rays, double enough)
                 squares += pow(probe->sum[set][channel] / (double)probe->count[set] - mean, 2);
         double error = sets > 1 ? STUDENT_T * sqrt(squares / ((double)sets * (sets - 1))) : INFINITY;
         probe->error = fmax(probe->error, error);
-        probe->done &= error <= enough * fmax(1, mean);
+        probe->done &= error <= believed * fmax(1, mean);
     }
 }
 

@@ -224,7 +224,7 @@ static void probe__small_error__more_rays(void **state)
 {
     (void)state;
     const double towards[3] = {1, 0.02, 0.03};
-    struct probe coarse = measure_one(pi / 2, 10, 0.1, half, towards);
+    struct probe coarse = measure_one(pi / 2, 10, 1, half, towards);
     struct probe fine = measure_one(pi / 2, 10, 1e-3, half, towards);
     struct probe finest = measure_one(pi / 2, 10, 1e-6, half, towards);
     assert_int_equal(coarse.samples, PROBE_FIRST_RAYS);
