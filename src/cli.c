@@ -310,25 +310,34 @@ static enum result write_picture(const char *path, const struct cli_filter *opti
         return result;
     const struct exr_channel layers[] = {
         {"glossy.R", glossy, 0}, {"glossy.G", glossy, 1}, {"glossy.B", glossy, 2}, {"radius.V", radius, 0}};
-    int count = options->layers ? (int)(sizeof layers / sizeof *layers) : 0;
+    int count = options->layers ? 3 + (radius != NULL) : 0;
     return image_write(path, format, options->bits, image, count > 0 ? layers : NULL, count, err);
+}
+
+enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
+                      struct image *glossy, struct image *radius, struct error *err)
+{
+    struct image image = {0};
+    enum result result = compose(gbuffer, glossy, &image, err);
+    struct image *const images[] = {&image, glossy, radius};
+    for (int i = 0; i < 3 && result == RESULT_OK && gbuffer->window.width > 0; i++)
+        if (images[i])
+            result = image_crop(images[i], &gbuffer->window, err);
+    if (result == RESULT_OK)
+        result = write_picture(path, options, &image, glossy, radius, err);
+    image_free(&image);
+    return result;
 }
 
 enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                      struct error *err)
 {
-    struct image glossy = {0}, radius = {0}, image = {0};
+    struct image glossy = {0}, radius = {0};
     enum result result = filter_glossy(gbuffer, &options->filter, &glossy, &radius, err);
     if (result == RESULT_OK)
-        result = compose(gbuffer, &glossy, &image, err);
-    struct image *const images[] = {&image, &glossy, &radius};
-    for (int i = 0; i < 3 && result == RESULT_OK && gbuffer->window.width > 0; i++)
-        result = image_crop(images[i], &gbuffer->window, err);
-    if (result == RESULT_OK)
-        result = write_picture(path, options, &image, &glossy, &radius, err);
+        result = cli_write(path, options, gbuffer, &glossy, &radius, err);
     image_free(&glossy);
     image_free(&radius);
-    image_free(&image);
     return result;
 }
 

@@ -45,6 +45,11 @@ MUST_CHECK enum result cli_number(const char *option, const char *text, double l
 MUST_CHECK enum result cli_integer(const char *option, const char *text, int low, int high, int *value,
                                    struct error *err);
 
+/* Composes the picture with the blurred reflection and writes it to `path`; with --layers also glossy.R/.G/.B and radius.V,
+ * which is left out where radius is NULL. All are cropped to the window. */
+MUST_CHECK enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
+                                 struct image *glossy, struct image *radius, struct error *err);
+
 /* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and radius.V. */
 MUST_CHECK enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                 struct error *err);

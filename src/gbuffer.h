@@ -17,6 +17,8 @@ struct gbuffer {
     struct image endpoint;    /* X Y Z W: b, homogeneous; W = 0 is a direction */
     struct image phong;       /* 1 channel: Phong exponent; 0 (or less, or NaN) not glossy, infinity a mirror; may be empty
                                  (the filter's exponent applies wherever the endpoint is not all zero) */
+    struct image direction;   /* X Y Z: unit vectors along the eye's rays, */
+    struct image mirrored;    /* and along the mirrored ones; for probes, else empty: no passes file holds them */
     bool has_eye;
     float eye[3];       /* world units; without it the footprint comes from the gradient of the direction field */
     float view_angle;   /* of the planes' width, radians; 0: unknown */

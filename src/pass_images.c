@@ -37,7 +37,7 @@ static enum result read_codes(const struct pass_images *images, enum pass_id id,
     return result;
 }
 
-static enum result read_radiance(const struct pass_images *images, enum pass_id id, struct image *image,
+enum result pass_images_radiance(const struct pass_images *images, enum pass_id id, struct image *image,
                                  struct error *err)
 {
     struct exr_contents contents = {0};
@@ -97,7 +97,7 @@ static enum result clear_haze(const struct pass_images *images, struct image *sp
 {
     const double gamma = images->scene->working_gamma;
     struct image haze = {0};
-    enum result result = read_radiance(images, PASS_HAZE, &haze, err);
+    enum result result = pass_images_radiance(images, PASS_HAZE, &haze, err);
     if (!result && !same_size(specular, &haze))
         result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the specular and the haze pass are of different sizes",
                            images->name);
@@ -292,17 +292,17 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
                              struct error *err)
 {
     struct image directions = {0}, codes = {0};
-    enum result result = read_radiance(images, PASS_BASE, &gbuffer->base, err);
+    enum result result = pass_images_radiance(images, PASS_BASE, &gbuffer->base, err);
     if (result || !images->scene->glossy)
         return result ? result : make_dull(gbuffer, err);
     if (pass_needed(images->scene, PASS_EXPONENT))
         result = read_codes(images, PASS_EXPONENT, &codes, err);
     if (!result)
-        result = read_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
+        result = pass_images_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
     if (!result && pass_needed(images->scene, PASS_HAZE))
         result = clear_haze(images, &gbuffer->specular, err);
     if (!result)
-        result = read_radiance(images, PASS_REFLECTANCE, &gbuffer->reflectance, err);
+        result = pass_images_radiance(images, PASS_REFLECTANCE, &gbuffer->reflectance, err);
     if (!result)
         result = read_coded(images, PASS_POSITION, PASS_POSITION_LOW, NULL, &gbuffer->position, err);
     if (!result)
@@ -328,12 +328,12 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         else
             note_lost(gbuffer, images->name, note);
     }
-    image_free(&directions);
+    if (!result && images->rays)
+        result = read_coded(images, PASS_MIRROR, PASS_MIRROR_LOW, &codes, &gbuffer->mirrored, err);
+    if (!result && images->rays)
+        gbuffer->direction = directions;
+    else
+        image_free(&directions);
     image_free(&codes);
     return result;
-}
-
-enum result pass_images_read_own(const struct pass_images *images, struct image *image, struct error *err)
-{
-    return read_radiance(images, PASS_OWN, image, err);
 }

@@ -12,19 +12,21 @@ struct pass_images {
     const char *name;   /* of the scene, for messages */
     const struct scene *scene;
     int subsample;
+    bool rays; /* with those of the mirror */
 };
 
 /* The path of a pass's image, which the caller frees: folder/pass/image03.exr, .png for codes. */
 MUST_CHECK enum result pass_image_path(const struct pass_images *images, enum pass_id id, char **path,
                                        struct error *err);
 
+/* The radiance that a pass saw, R G B, linear. */
+MUST_CHECK enum result pass_images_radiance(const struct pass_images *images, enum pass_id id, struct image *image,
+                                            struct error *err);
+
 /* Reads and decodes all of them into *gbuffer: a and b, the eye, exponents, reflectance in the working space; subsampled
  * passes interpolated. RESULT_DATA where an image is missing, broken or of another size than the others; then, too, the
  * caller frees the gbuffer. *note is a warning worth a line where nothing glossy is seen. */
 MUST_CHECK enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
                                         struct error *err);
-
-/* Reads POV-Ray's own picture into *image (3 channels, linear), which the caller frees. */
-MUST_CHECK enum result pass_images_read_own(const struct pass_images *images, struct image *image, struct error *err);
 
 #endif

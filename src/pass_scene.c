@@ -112,6 +112,26 @@ const struct pass pass_table[PASS_COUNT] = {
                   .full_size = true,
                   .first = {.copy = SCENE_COPY_PLAIN, .modifiers = ""},
                   .second = {.copy = -1}},
+    [PASS_MIRROR] = {.name = "mirror",
+                     .codes = true,
+                     .technical = true,
+                     .digits = POSITION_DIGITS_HIGH,
+                     .mirror_colour = mirror_white,
+                     .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
+                     .second = {.copy = -1},
+                     .coded_sky = true},
+    [PASS_MIRROR_LOW] = {.name = "mirror-low",
+                         .codes = true,
+                         .technical = true,
+                         .digits = POSITION_DIGITS_LOW,
+                         .mirror_colour = mirror_white,
+                         .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
+                         .second = {.copy = -1},
+                         .coded_sky = true},
+    [PASS_PROBE] = {.name = "probe",
+                    .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
+                    .second = {.copy = -1},
+                    .trailer = "#include \"" PASS_PROBE_VIEW "\"\n"},
 };
 
 /* What a copy without textures refers to. */
@@ -351,7 +371,10 @@ static enum result add_coding_texture(const struct pass *pass, struct buffer *te
     enum result result = buffer_add_text(text, "texture { ", err);
     if (!result)
         result = position_code_pigment(text, false, pass->digits, err);
-    return result ? result : buffer_add_text(text, "finish { emission 1 ambient 0 diffuse 0 specular 0 phong 0 } }\n", err);
+    return result ? result : buffer_add_text(text,
+                                             "finish { emission 1 ambient 0 diffuse 0 specular 0 phong 0 irid { 0 } "
+                                             "crand 0 reflection { 0 } } }\n",
+                                             err);
 }
 
 static enum result add_part(const struct scene *scene, const struct pass *pass, const struct scene_part *part,
@@ -491,11 +514,10 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
         result = scene_save_names(scene, text, err);
     if (!result)
         result = add_part(scene, pass, &first, text, err);
-    if (!result && has_second_part(scene, id)) {
+    if (!result && (has_second_part(scene, id) || id == PASS_PROBE))
         result = add_separation(scene, text, err);
-        if (!result)
-            result = add_part(scene, pass, &pass->second, text, err);
-    }
+    if (!result && has_second_part(scene, id))
+        result = add_part(scene, pass, &pass->second, text, err);
     if (!result && pass->coded_sky)
         result = add_coded_sky(pass, text, err);
     if (!result && pass->trailer)
@@ -505,8 +527,15 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     return result;
 }
 
+bool pass_is_mirror(enum pass_id id)
+{
+    return id == PASS_MIRROR || id == PASS_MIRROR_LOW;
+}
+
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
+    if (id == PASS_PROBE || pass_is_mirror(id))
+        return false;
     if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
         return false;
     if (id == PASS_HAZE && !scene->atmosphere)

@@ -22,6 +22,9 @@ enum pass_id {
     PASS_DIRECTION,
     PASS_EXPONENT,
     PASS_OWN, /* POV-Ray's own picture of the scene as it is, small and without antialiasing */
+    PASS_MIRROR, /* the mirrored rays' directions, for probes: an endpoint may lie behind glass that bends the ray */
+    PASS_MIRROR_LOW,
+    PASS_PROBE, /* what mirrored rays see in PASS_PROBE_VIEW, the mirrors and the camera of the caller */
     PASS_COUNT,
 };
 
@@ -29,6 +32,7 @@ enum pass_id {
 /* Left by the base pass in its folder: index of the file and line of the first object that holds something transparent and
  * something glossy. */
 #define PASS_MIXED_FILE "mixed.txt"
+#define PASS_PROBE_VIEW "view.inc"
 
 /* A copy of the scene in a union. */
 struct scene_part {
@@ -63,6 +67,8 @@ bool pass_needed(const struct scene *scene, enum pass_id id);
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are
  * loaded as in the other passes. */
 bool pass_is_verbatim(const struct scene *scene, enum pass_id id);
+/* Whether the pass is one of the mirrored rays' directions, which are rendered for those who ask. */
+bool pass_is_mirror(enum pass_id id);
 
 /* Marks the kinds of copies that the pass includes. */
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT]);

@@ -100,7 +100,9 @@ static enum result write_scenes(struct passes *passes, struct error *err)
     enum result result = RESULT_OK;
     passes->job_count = 0;
     for (int id = 0; !result && id < PASS_COUNT; id++) {
-        if (!pass_needed(&passes->scene, (enum pass_id)id) || (id == PASS_OWN && !is_checked(passes)))
+        bool asked = passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id);
+        bool unasked = id == PASS_OWN && !is_checked(passes);
+        if (unasked || (!asked && !pass_needed(&passes->scene, (enum pass_id)id)))
             continue;
         passes->ids[passes->job_count++] = (enum pass_id)id;
         pass_copies(&passes->scene, (enum pass_id)id, needed);
@@ -518,6 +520,44 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     return result;
 }
 
+/* The size of the image, all of it. */
+static enum result add_size(struct text_list *arguments, int width, int height, struct error *err)
+{
+    const struct {
+        const char *format;
+        int value;
+    } switches[] = {{"+W%d", width}, {"+H%d", height}, {"+SC%d", 1}, {"+EC%d", width}, {"+SR%d", 1}, {"+ER%d", height}};
+    enum result result = RESULT_OK;
+    for (size_t i = 0; !result && i < sizeof switches / sizeof *switches; i++) {
+        char text[32];
+        snprintf(text, sizeof text, switches[i].format, switches[i].value);
+        result = text_list_add(arguments, err, "%s", text);
+    }
+    return result;
+}
+
+static enum result run_view(const struct passes *passes, int frame, int width, int height, struct error *err)
+{
+    struct text_list arguments = {0};
+    char *folder = NULL;
+    int failed = -1;
+    enum result result = job_arguments(passes, PASS_PROBE, frame, &arguments, err);
+    if (!result)
+        result = add_size(&arguments, width, height, err);
+    if (!result)
+        result = text_printf(&folder, err, "%s/%s", passes->folder.path, pass_table[PASS_PROBE].name);
+    struct povray_job job = {
+        .name = pass_table[PASS_PROBE].name, .folder = folder, .arguments = arguments.texts};
+    if (!result)
+        result = povray_run(&job, 1, 1, passes->environment, no_progress, NULL, &failed, err);
+    if (failed >= 0)
+        result = report_failure(passes, &job, err);
+    povray_jobs_free(&job, 1);
+    text_list_free(&arguments);
+    free(folder);
+    return result;
+}
+
 static enum result collect_reads(struct passes *passes, struct error *err)
 {
     const struct reads_places places = {.scene = &passes->scene,
@@ -620,6 +660,7 @@ enum result passes_open(const struct passes_options *options, struct passes **op
                         struct error *err)
 {
     const struct povray_switches *switches = options->switches;
+    assert(!(options->rays && options->subsample > 1));
     assert(options->subsample >= 1 && (options->subsample == 1 || (switches->width > 0 && switches->height > 0)));
     struct passes *passes = *opened = calloc(1, sizeof *passes);
     if (!passes)
@@ -643,7 +684,8 @@ static struct pass_images images_of(const struct passes *passes, const char *num
                                 .number = number,
                                 .name = passes->options->scene,
                                 .scene = &passes->scene,
-                                .subsample = passes->options->subsample};
+                                .subsample = passes->options->subsample,
+                                .rays = passes->options->rays};
 }
 
 enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
@@ -702,7 +744,7 @@ enum result passes_check_sum(const struct passes *passes, int frame, const struc
         return RESULT_OK;
     frames_number(&options->frames, frame, number);
     const struct pass_images images = images_of(passes, number);
-    enum result result = pass_images_read_own(&images, &own, err);
+    enum result result = pass_images_radiance(&images, PASS_OWN, &own, err);
     if (!result)
         result = compose(gbuffer, &gbuffer->specular, &sum, err);
     if (!result)
@@ -713,6 +755,28 @@ enum result passes_check_sum(const struct passes *passes, int frame, const struc
         result = remove_image(passes, &images, PASS_OWN, err);
     image_free(&sum);
     image_free(&own);
+    return result;
+}
+
+enum result passes_view(struct passes *passes, int frame, const struct buffer *view, int width, int height,
+                        struct image *image, struct error *err)
+{
+    char number[FRAMES_NUMBER_SIZE], *path = NULL;
+    frames_number(&passes->options->frames, frame, number);
+    const struct pass_images images = images_of(passes, number);
+    enum result result = write_pass(passes, PASS_PROBE, err);
+    if (!result)
+        result = text_printf(&path, err, "%s/%s/" PASS_PROBE_VIEW, passes->folder.path, pass_table[PASS_PROBE].name);
+    if (!result)
+        result = file_write(path, view, err);
+    if (!result)
+        result = run_view(passes, frame, width, height, err);
+    if (!result)
+        result = pass_images_radiance(&images, PASS_PROBE, image, err);
+    if (!result && (image->width != width || image->height != height))
+        result = error_set(err, RESULT_DATA, "%s: POV-Ray's image of the probe pass is %dx%d, not %dx%d",
+                           passes->options->scene, image->width, image->height, width, height);
+    free(path);
     return result;
 }
 

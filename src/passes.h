@@ -32,6 +32,7 @@ struct passes_options {
     int jobs;             /* POV-Ray processes at the same time; 0: two more than there are cores */
     int timeout_s;        /* for each POV-Ray process; 0: none */
     bool check;           /* POV-Ray's own picture is rendered, too, for passes_check_sum */
+    bool rays;            /* the gbuffer gets the eye's rays and the mirrored ones; not with subsampling */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;
@@ -58,6 +59,11 @@ MUST_CHECK enum result passes_render(struct passes *passes, int frame, struct gb
  * picture is rendered. *note is a warning where they differ: something in the scene isn't modelled by the passes. */
 MUST_CHECK enum result passes_check_sum(const struct passes *passes, int frame, const struct gbuffer *gbuffer,
                                     struct error *note, struct error *err);
+/* Renders what mirrored rays see of the frame that passes_render drew last. `view` is scene text: a camera, and mirrors
+ * that no mirrored ray sees; the camera sees nothing but those. *image (R G B, linear) has the size given; the caller
+ * frees it. */
+MUST_CHECK enum result passes_view(struct passes *passes, int frame, const struct buffer *view, int width, int height,
+                                   struct image *image, struct error *err);
 
 /* Adds the files that POV-Ray and povgloss read for the frames that were rendered to *files, as reads_list does. */
 MUST_CHECK enum result passes_reads(const struct passes *passes, struct buffer *files, struct error *err);

@@ -62,7 +62,7 @@ tells_version() {
 
 filter_options=(--phong --roughness --mode --weights --formula --window --energy --max-angle --max-radius --radius-step
     --threads --isa --format --bits)
-own_options=(--depfile -o --from-scene --resume --subsample --jobs --keep --povray)
+own_options=(--depfile -o --from-scene --resume --subsample --jobs --keep --povray --grid --error --samples --seed)
 check "povgloss --help names every option" \
     helps povgloss "${own_options[@]}" "${filter_options[@]}" --layers -q --quiet --help --version
 check "glossfilter --help names every option" \
@@ -80,6 +80,24 @@ check "povgloss render with a scene and +I" refuses povgloss "two scenes" render
 check "povgloss with an unknown option" refuses povgloss "unknown option --nonsense" render scene.pov -o x.png --nonsense
 check "povgloss passes with an option of the filter" refuses povgloss "glossfilter" passes scene.pov -o x.exr --phong 5
 check "povgloss passes to a PNG" refuses povgloss "exr" passes scene.pov -o x.png
+check "povgloss probe without an output" refuses povgloss "no output" probe scene.pov
+for option in --layers --radius-step=2 --depfile=x.d --resume --subsample=2; do
+    check "povgloss probe with $option" refuses povgloss "povgloss probe neither filters" probe scene.pov -o x.csv "$option"
+done
+check "povgloss probe of an animation" refuses povgloss "one frame" probe scene.pov +KFF3 -o x.csv
+for option in --radius-step=2 --max-radius=3 --resume --subsample=2; do
+    check "povgloss brute with $option" refuses povgloss "povgloss brute neither filters" brute scene.pov -o x.exr "$option"
+done
+check "povgloss brute without a format" refuses povgloss "--format exr|png" brute scene.pov -o picture
+check "povgloss brute with layers in a PNG" refuses povgloss "--layers" brute scene.pov -o x.png --layers
+check "povgloss brute with two exponents" refuses povgloss "one --phong" brute scene.pov -o x.exr --phong 1 --phong 2
+check "povgloss: --grid is the probes'" refuses povgloss "unknown option --grid" render scene.pov -o x.png --grid 3
+check "povgloss compare with one file" refuses povgloss "needs two files" compare probes.csv
+check "povgloss compare with three files" refuses povgloss "needs two files" compare probes.csv a.exr b.exr
+check "povgloss compare with two exponents" refuses povgloss "one --phong" compare probes.csv a.exr --phong 1 --phong 2
+for option in -o=x --layers --keep=x --gloss=auto --from-scene; do
+    check "povgloss compare with $option" refuses povgloss "povgloss compare takes" compare probes.csv a.exr "$option"
+done
 check "glossfilter without arguments" refuses glossfilter "no passes file"
 check "glossfilter without an output" refuses glossfilter "no output" passes.exr
 check "glossfilter --check without a passes file" refuses glossfilter "no passes file" --check
@@ -125,6 +143,17 @@ done
 check "povgloss: wrong values of --subsample" \
     refuses_values povgloss --subsample "" "0 3 5 8 1.5" render scene.pov +W640 +H480 -o x.png
 check "povgloss: wrong values of --jobs" refuses_values povgloss --jobs "" "65 1.5 99999999999999999999" render scene.pov -o x.png
+while read -r option values; do
+    check "povgloss probe: wrong values of $option" \
+        refuses_values povgloss "$option" "must be" "$values" probe scene.pov -o x.csv
+done << 'END'
+--grid 0 1.5 65536
+--error 0 1e-7 1.1 inf
+--phong -inf -1e-9 1,5
+--seed 1.5 99999999999999999999
+END
+check "povgloss brute: wrong values of --samples" \
+    refuses_values povgloss --samples "must be" "0 1.5 65537" brute scene.pov -o x.exr
 for option in --keep --povray; do
     check "povgloss: $option without a value" refuses povgloss "$option needs a value" render scene.pov -o x.png "$option"
 done
@@ -144,6 +173,7 @@ refuses_terminal() {
     return 1
 }
 check "povgloss: a PNG to the terminal" refuses_terminal povgloss render scene.pov -o - --format png
+check "povgloss: probes to the terminal" refuses_terminal povgloss probe scene.pov -o -
 check "povgloss: passes to the terminal" refuses_terminal povgloss passes scene.pov -o -
 check "glossfilter: an EXR to the terminal" refuses_terminal glossfilter passes.exr -o - --format exr
 

@@ -132,7 +132,7 @@ mkdir files
 cd files || exit 1
 mkdir 'a folder'
 touch a.exr a.png a.pov a.txt b.exr
-check "completion__the_first_word__commands" completes "list passes render" povgloss ""
+check "completion__the_first_word__commands" completes "brute compare list passes probe render" povgloss ""
 check "completion__an_option__of_the_program" completes "--gloss" povgloss render --gl
 check "completion__an_option__of_the_filter" completes "--map --max-angle --max-radius" glossfilter --ma
 check "completion__short_options__too" completes "-q" glossfilter -q
