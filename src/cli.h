@@ -15,7 +15,7 @@ struct cli_filter {
     struct filter_options filter;
     const char *format; /* "exr" or "png"; NULL: by the output's extension */
     int bits;           /* of a PNG: 8 or 16 */
-    bool layers;        /* further channels in an EXR: the blurred reflection, the radius */
+    bool layers;        /* further channels in an EXR: the blurred reflection, the confidence or the radius */
     bool quiet;
 };
 
@@ -44,7 +44,8 @@ MUST_CHECK enum result cli_number(const char *option, const char *text, double l
 MUST_CHECK enum result cli_integer(const char *option, const char *text, int low, int high, int *value,
                                    struct error *err);
 
-/* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and radius.V. */
+/* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and confidence.V, of the
+ * paper radius.V. */
 MUST_CHECK enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                 struct error *err);
 
