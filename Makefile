@@ -165,9 +165,9 @@ build/scenes/%.png: povscenes/%.pov $(PROGRAMS) $(PRELOAD)
 
 -include $(SCENES:.png=.d)
 
-# The passes are rendered once; each figure filters them with another roughness. The paper's Theta is below 10 degrees; the
-# radius at every pixel takes no longer than at every fourth, and leaves silhouettes smooth.
-FIGURE_FILTER := --max-angle 10 --radius-step 1
+# The passes are rendered once; each figure filters them with another roughness, by the paper's own filter; its Theta is below
+# 10 degrees.
+FIGURE_FILTER := --mode paper --max-angle 10
 FIGURES := build/figures/figure2.png build/figures/figure3.png build/figures/figure4.png
 .PHONY: figures
 figures: build/figures/figures.png ## the paper's Figures 2 to 4: one scene at roughness 0 %, 10 % and 50 %

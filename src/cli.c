@@ -121,10 +121,22 @@ static enum result set_roughness(const char *name, const char *value, struct cli
 
 static enum result set_mode(const char *name, const char *value, struct cli_filter *options, struct error *err)
 {
-    static const char *const words[] = {"paper", NULL};
+    static const char *const words[] = {[FILTER_MODE_BEST] = "best", [FILTER_MODE_PAPER] = "paper", NULL};
     int chosen;
-    (void)options;
-    return choose(name, value, words, &chosen, err);
+    enum result result = choose(name, value, words, &chosen, err);
+    if (result == RESULT_OK)
+        options->filter.mode = (enum filter_mode)chosen;
+    return result;
+}
+
+static enum result set_without(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    static const char *const words[] = {"density", "visibility", "pool", NULL};
+    int chosen;
+    enum result result = choose(name, value, words, &chosen, err);
+    if (result == RESULT_OK)
+        options->filter.without |= 1u << chosen;
+    return result;
 }
 
 static enum result set_weights(const char *name, const char *value, struct cli_filter *options, struct error *err)
@@ -236,7 +248,7 @@ static const struct {
     {"--weights", set_weights},       {"--formula", set_formula},         {"--window", set_window},
     {"--max-radius", set_max_radius}, {"--radius-step", set_radius_step}, {"--energy", set_energy},
     {"--max-angle", set_max_angle},   {"--threads", set_threads},         {"--isa", set_isa},
-    {"--format", set_format},         {"--bits", set_bits},
+    {"--format", set_format},         {"--bits", set_bits},           {"--without", set_without},
 };
 
 const char cli_filter_help[] =
@@ -244,21 +256,28 @@ const char cli_filter_help[] =
     "  --phong P            Phong exponent, 0 to inf (a mirror): replaces the passes' own at every\n"
     "                       glossy pixel; what is not glossy stays so\n"
     "  --roughness R        the same by roughness, 0 (a mirror) to 1: P = (1/R^4 - 1)/2\n"
-    "  --mode paper         Kulikova and Dmitriev, Fuzzy reflections rendering, 2002 (default)\n"
+    "  --mode M             best (default): what each point of the mirror sees, by solid angle; paper:\n"
+    "                       Kulikova and Dmitriev, Fuzzy reflections rendering, 2002\n"
+    "  --energy E           share of the lobe's energy that is looked at, 0 to 1 (default 0.999; of the\n"
+    "                       paper 0.99)\n"
+    "  --max-angle DEG      limit of the lobe's half-angle, up to 90 (default 90)\n"
+    "  --max-radius PX      limit of the window's radius; 0: none (default)\n"
+    "  --without W          best: leave out density, visibility or pool, to see what it is worth; may be\n"
+    "                       given again\n"
+    "Filter of --mode paper:\n"
     "  --weights W          exact (default), table (within 0.003 %), or gauss in place of the lobe\n"
     "  --formula F          phong: cos^P, equation (3), default; max: 2 strength cos^P, equation (2);\n"
     "                       the picture is the same\n"
     "  --window W           round (default) or square\n"
-    "  --energy E           share of the lobe's energy in the window, 0 to 1 (default 0.99)\n"
-    "  --max-angle DEG      limit of the lobe's half-angle, up to 90 (default 90)\n"
-    "  --max-radius PX      limit of the window's radius; 0: none (default)\n"
-    "  --radius-step N      radius computed at every 1, 2, 4 (default) or 8 pixels\n"
+    "  --radius-step N      radius computed at every 1 (default), 2, 4 or 8 pixels\n"
+    "Speed:\n"
     "  --threads N          0: one for each processor (default)\n"
     "  --isa I              auto (default), sse2, avx2 or avx512; the picture is the same\n"
     "Output:\n"
     "  --format F           exr (linear) or png (sRGB); default: by the name's extension\n"
     "  --bits N             of a PNG: 8 (default) or 16\n"
-    "  --layers             EXR: also the blurred reflection (glossy.*) and the radius (radius.V)\n"
+    "  --layers             EXR: also the blurred reflection (glossy.*), and how much of the lobe the\n"
+    "                       samples cover (confidence.V) or the paper's radius (radius.V)\n"
     "  -q, --quiet          no messages but errors\n";
 
 enum result cli_filter_option(int argc, char **argv, int *index, struct cli_filter *options, bool *taken,
@@ -294,6 +313,14 @@ enum result cli_check_output(const char *path, const struct cli_filter *options,
     enum result result = image_format_choose(path, options->format, &format, err);
     if (result != RESULT_OK)
         return result;
+    const struct filter_options *filter = &options->filter;
+    const bool of_paper = filter->weights != FILTER_WEIGHTS_EXACT || filter->formula != FILTER_FORMULA_PHONG ||
+                          filter->window != FILTER_WINDOW_ROUND || filter->radius_step != 1;
+    if (of_paper && filter->mode != FILTER_MODE_PAPER)
+        return error_set(err, RESULT_USAGE,
+                         "--weights, --formula, --window and --radius-step are the paper's: add --mode paper");
+    if (filter->without && filter->mode != FILTER_MODE_BEST)
+        return error_set(err, RESULT_USAGE, "--without is for --mode best");
     if (options->layers && format == IMAGE_FORMAT_PNG)
         return error_set(err, RESULT_USAGE, "--layers: a PNG has no layers; write an EXR (--format exr)");
     if (strcmp(path, "-") == 0 && isatty(STDOUT_FILENO))
@@ -302,29 +329,31 @@ enum result cli_check_output(const char *path, const struct cli_filter *options,
 }
 
 static enum result write_picture(const char *path, const struct cli_filter *options, const struct image *image,
-                                 const struct image *glossy, const struct image *radius, struct error *err)
+                                 const struct image *glossy, const struct image *measure, struct error *err)
 {
     enum image_format format;
     enum result result = image_format_choose(path, options->format, &format, err);
     if (result != RESULT_OK)
         return result;
-    const struct exr_channel layers[] = {
-        {"glossy.R", glossy, 0}, {"glossy.G", glossy, 1}, {"glossy.B", glossy, 2}, {"radius.V", radius, 0}};
-    int count = options->layers ? 3 + (radius != NULL) : 0;
+    struct exr_channel layers[] = {
+        {"glossy.R", glossy, 0}, {"glossy.G", glossy, 1}, {"glossy.B", glossy, 2}, {"confidence.V", measure, 0}};
+    if (options->filter.mode == FILTER_MODE_PAPER)
+        layers[3] = (struct exr_channel){"radius.V", measure, 0};
+    int count = options->layers ? 3 + (measure != NULL) : 0;
     return image_write(path, format, options->bits, image, count > 0 ? layers : NULL, count, err);
 }
 
 enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
-                      struct image *glossy, struct image *radius, struct error *err)
+                      struct image *glossy, struct image *measure, struct error *err)
 {
     struct image image = {0};
     enum result result = compose(gbuffer, glossy, &image, err);
-    struct image *const images[] = {&image, glossy, radius};
+    struct image *const images[] = {&image, glossy, measure};
     for (int i = 0; i < 3 && result == RESULT_OK && gbuffer->window.width > 0; i++)
         if (images[i])
             result = image_crop(images[i], &gbuffer->window, err);
     if (result == RESULT_OK)
-        result = write_picture(path, options, &image, glossy, radius, err);
+        result = write_picture(path, options, &image, glossy, measure, err);
     image_free(&image);
     return result;
 }
@@ -332,12 +361,12 @@ enum result cli_write(const char *path, const struct cli_filter *options, const 
 enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                      struct error *err)
 {
-    struct image glossy = {0}, radius = {0};
-    enum result result = filter_glossy(gbuffer, &options->filter, &glossy, &radius, err);
+    struct image glossy = {0}, measure = {0};
+    enum result result = filter_glossy(gbuffer, &options->filter, &glossy, &measure, err);
     if (result == RESULT_OK)
-        result = cli_write(path, options, gbuffer, &glossy, &radius, err);
+        result = cli_write(path, options, gbuffer, &glossy, &measure, err);
     image_free(&glossy);
-    image_free(&radius);
+    image_free(&measure);
     return result;
 }
 

@@ -16,7 +16,7 @@ struct cli_filter {
     struct filter_options filter;
     const char *format; /* "exr" or "png"; NULL: by the output's extension */
     int bits;           /* of a PNG: 8 or 16 */
-    bool layers;        /* further channels in an EXR: the blurred reflection, the radius */
+    bool layers;        /* further channels in an EXR: the blurred reflection, the confidence or the radius */
     bool quiet;
 };
 
@@ -45,12 +45,13 @@ MUST_CHECK enum result cli_number(const char *option, const char *text, double l
 MUST_CHECK enum result cli_integer(const char *option, const char *text, int low, int high, int *value,
                                    struct error *err);
 
-/* Composes the picture with the blurred reflection and writes it to `path`; with --layers also glossy.R/.G/.B and radius.V,
- * which is left out where radius is NULL. All are cropped to the window. */
+/* Composes the picture with the blurred reflection and writes it to `path`; with --layers also glossy.R/.G/.B and
+ * `measure`, unless it is NULL, as confidence.V, of the paper radius.V. All are cropped to the window. */
 MUST_CHECK enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
-                                 struct image *glossy, struct image *radius, struct error *err);
+                                 struct image *glossy, struct image *measure, struct error *err);
 
-/* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and radius.V. */
+/* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and confidence.V, of the
+ * paper radius.V. */
 MUST_CHECK enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                 struct error *err);
 

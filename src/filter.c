@@ -1,7 +1,7 @@
-/* The paper's filter, equations (1) and (4) to (6).
+/* Both filters: the stages around the sums of filter_kernel.c.
  *
- * Four stages: the passes as planes of taps; the radius of every pixel (equations (4) and (5), or the gradient of the
- * direction field); the sums of equation (1), by filter_kernel.c; antialiased edges. Each is shared out by rows.
+ * The passes as planes of taps, and for the best filter the area of each; the radius of every pixel (equations (4) and
+ * (5), or the gradient of the direction field); the sums; antialiased edges. Each stage is shared out by rows.
  */
 #include "filter.h"
 
@@ -14,6 +14,7 @@
 #include <assert.h>
 #include <float.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,19 +23,34 @@ static const double mirror_phong = 1e20;
 
 enum { EDGE_REACH_PX = 3 };
 
+static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+
+static const double pi = 3.14159265358979324;
+
+/* How many times larger tan^2(theta) is of what hides an endpoint: 10 % of the angle are left to the digits of the
+ * positions and to bumps. */
+static const float hidden_ratio = 1.21f;
+
+/* See help_needed(); so little that it isn't worth its time is taken off. */
+static const double pool_pixels = 16, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.02;
+
 struct filter {
     const struct gbuffer *gbuffer;
     const struct filter_options *options;
     filter_kernel *kernel;
+    filter_see *see;
     struct filter_taps taps;
     float *planes;
     unsigned char *kinds;
     struct filter_box *boxes;
     float *table;
     double length_scale, radiance_scale; /* powers of two that keep squares and sums within the range of a float */
+    double energy;
+    double floor; /* of the best filter's weights */
     double radius_limit_px;
-    struct image radius;
+    struct image radius, confidence;
     struct image *glossy;
+    atomic_bool out_of_memory;
 };
 
 struct filter_options filter_options_default(void)
@@ -44,9 +60,8 @@ struct filter_options filter_options_default(void)
         .formula = FILTER_FORMULA_PHONG,
         .window = FILTER_WINDOW_ROUND,
         .phong = NAN,
-        .energy = 0.99,
         .max_angle_rad = 1.57079632679489662,
-        .radius_step = 4,
+        .radius_step = 1,
     };
 }
 
@@ -104,7 +119,8 @@ static void scales_find(struct filter *filter)
             }
         }
     filter->length_scale = coordinate > 0 ? ldexp(1, 20 - ilogb(coordinate)) : 1;
-    filter->radiance_scale = radiance > 0x1p100 ? ldexp(1, 100 - ilogb(radiance)) : 1;
+    const bool extreme = radiance > 0x1p100 || (radiance > 0 && radiance < 0x1p-20);
+    filter->radiance_scale = extreme ? ldexp(1, -ilogb(radiance)) : 1;
 }
 
 static const struct filter_box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -187,10 +203,73 @@ static double direction_to(const struct filter *filter, const float a[3], int x,
     return distance;
 }
 
+static bool is_inside(const struct filter *filter, int x, int y)
+{
+    return x >= 0 && y >= 0 && x < filter->taps.width && y < filter->taps.height;
+}
+
+/* Change of the direction from (x, y)'s a to the endpoints from that of (x, y) to that of a neighbour, before and after
+ * it on one axis: the smaller of the two, for the larger may leap to another thing. Its length; infinite where neither
+ * neighbour is glossy. */
+static double direction_step(const struct filter *filter, const float a[3], int x, int y, int right, int down,
+                             double step[3])
+{
+    double own[3], least = INFINITY;
+    direction_to(filter, a, x, y, own);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        int u = x + sign * right, v = y + sign * down;
+        double other[3], square = 0;
+        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v) || direction_to(filter, a, u, v, other) == 0)
+            continue;
+        for (int i = 0; i < 3; i++) {
+            other[i] = sign * (other[i] - own[i]);
+            square += other[i] * other[i];
+        }
+        if (square >= least)
+            continue;
+        least = square;
+        memcpy(step, other, sizeof other);
+    }
+    return sqrt(least);
+}
+
+/* Area across the ray that a glossy pixel stands for at its endpoint; for a direction its solid angle. Without
+ * neighbours on one axis it is a square, without any it is next to nothing. */
+static double area_at(const struct filter *filter, int x, int y)
+{
+    const double least = 1e-12;
+    float a[3];
+    double own[3], across[3] = {0}, down[3] = {0}, solid;
+    position_at(filter, x, y, a);
+    double distance = direction_to(filter, a, x, y, own);
+    double width = direction_step(filter, a, x, y, 1, 0, across), height = direction_step(filter, a, x, y, 0, 1, down);
+    if (filter->options->without & FILTER_WITHOUT_DENSITY) {
+        solid = 1e-6;
+    } else if (isinf(width) || isinf(height)) {
+        double side = fmin(width, height);
+        solid = isinf(side) ? 0 : side * side;
+    } else {
+        double normal[3] = {across[1] * down[2] - across[2] * down[1], across[2] * down[0] - across[0] * down[2],
+                            across[0] * down[1] - across[1] * down[0]};
+        solid = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    }
+    return fmax(solid, least) * distance * distance;
+}
+
+static void areas_fill(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    const struct filter_taps *taps = &filter->taps;
+    float *areas = filter->planes + FILTER_PLANE_AREA * taps->stride * (size_t)taps->height;
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < taps->width; x++)
+            if (is_glossy(filter, x, y))
+                areas[(size_t)y * taps->stride + (size_t)x + FILTER_BORDER] = (float)fmax(area_at(filter, x, y), 1e-30);
+}
+
 /* Pixels in which the direction to the endpoint turns by the half-angle, where the camera is not known. */
 static double radius_from_gradient(const struct filter *filter, int x, int y, double half_angle)
 {
-    static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     float a[3];
     double own[3], step = INFINITY;
     position_at(filter, x, y, a);
@@ -198,7 +277,7 @@ static double radius_from_gradient(const struct filter *filter, int x, int y, do
         return 0;
     for (int n = 0; n < 4; n++) {
         int u = x + neighbours[n][0], v = y + neighbours[n][1];
-        if (u < 0 || v < 0 || u >= filter->taps.width || v >= filter->taps.height || !is_glossy(filter, u, v))
+        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
             continue;
         double other[3], square = 0;
         if (direction_to(filter, a, u, v, other) == 0)
@@ -217,7 +296,7 @@ static double radius_at(const struct filter *filter, int x, int y)
     double phong = exponent_at(filter, x, y), radius;
     if (phong >= mirror_phong)
         return 0;
-    double half_angle = lobe_half_angle(phong, filter->options->energy, filter->options->max_angle_rad);
+    double half_angle = lobe_half_angle(phong, filter->energy, filter->options->max_angle_rad);
     if (gbuffer->has_eye && gbuffer->view_angle > 0) {
         struct sample sample;
         double s = 0, r = 0;
@@ -298,6 +377,7 @@ static double slope_of(enum filter_shape shape, double phong)
         return phong / 2 * log(2) * WEIGHTS_TABLE_STEPS;
     case FILTER_SHAPE_GAUSS:
         return phong / 2 / log(2);
+    case FILTER_SHAPE_SOLID:
     case FILTER_SHAPE_POWER:
         break;
     }
@@ -307,12 +387,12 @@ static double slope_of(enum filter_shape shape, double phong)
 /* Fills lane l with pixel (x, y). False: nothing to sum, the result is L0. */
 static bool lane_fill(const struct filter *filter, int x, int y, int l, struct filter_lanes *lanes)
 {
-    double radius = (double)image_row(&filter->radius, 0, y)[x];
     float a[3];
-    double direction[3];
+    double direction[3], phong = exponent_at(filter, x, y);
     position_at(filter, x, y, a);
     double distance = direction_to(filter, a, x, y, direction);
-    if (radius < 1 || distance == 0)
+    bool one_tap = filter->options->mode == FILTER_MODE_PAPER && image_row(&filter->radius, 0, y)[x] < 1;
+    if (phong >= mirror_phong || distance == 0 || one_tap)
         return false;
     for (int i = 0; i < 3; i++) {
         lanes->a[i][l] = a[i];
@@ -325,39 +405,170 @@ static bool lane_fill(const struct filter *filter, int x, int y, int l, struct f
     if (lanes->b[3][l] > 0)
         lanes->farthest = fmaxf(lanes->farthest, lanes->distance[l]);
     box_add(&lanes->box, a);
-    lanes->slope[l] = (float)slope_of(filter->taps.shape, exponent_at(filter, x, y));
+    lanes->slope[l] = (float)slope_of(filter->taps.shape, phong);
     lanes->narrow = lanes->narrow && lanes->slope[l] >= FILTER_NARROW_SLOPE;
-    lanes->limit[l] = (float)(radius * radius);
     return true;
 }
 
-static void blur(void *context, int first, int end)
+/* The lanes' pixels from column x of row y on; used[l]: there is something to sum for lane l. */
+static bool lanes_fill(const struct filter *filter, int x, int y, struct filter_lanes *lanes, bool used[FILTER_LANES])
+{
+    bool any = false;
+    *lanes = (struct filter_lanes){.x = x, .y = y, .narrow = true, .box = empty_box};
+    for (int l = 0; l < FILTER_LANES; l++) {
+        lanes->limit[l] = lanes->blind[l] = -1;
+        used[l] = x + l < filter->taps.width && is_glossy(filter, x + l, y) && lane_fill(filter, x + l, y, l, lanes);
+        any = any || used[l];
+    }
+    return any;
+}
+
+/* Writes one pixel's sums; without weights L0 itself. */
+static void pixel_write(const struct filter *filter, int x, int y, const double colour[3], double weights)
+{
+    for (int i = 0; i < 3; i++) {
+        double value = (double)image_row(&filter->gbuffer->specular, i, y)[x];
+        if (weights > 0)
+            value = colour[i] / weights / filter->radiance_scale;
+        image_row(filter->glossy, i, y)[x] = (float)fmax(-FLT_MAX, fmin(value, FLT_MAX));
+    }
+}
+
+static void blur_paper(void *context, int first, int end)
 {
     struct filter *filter = context;
-    int width = filter->taps.width;
     for (int y = first; y < end; y++)
-        for (int x = 0; x < width && !interrupt_signal(); x += FILTER_LANES) {
-            struct filter_lanes lanes = {.x = x, .y = y, .narrow = true, .box = empty_box};
-            struct filter_sums sums;
-            bool any = false;
+        for (int x = 0; x < filter->taps.width && !interrupt_signal(); x += FILTER_LANES) {
+            struct filter_lanes lanes;
+            struct filter_sums sums = {0};
+            bool used[FILTER_LANES], any = lanes_fill(filter, x, y, &lanes, used);
             for (int l = 0; l < FILTER_LANES; l++) {
-                lanes.limit[l] = -1;
-                if (x + l < width && is_glossy(filter, x + l, y) && lane_fill(filter, x + l, y, l, &lanes))
-                    any = true;
+                if (!used[l])
+                    continue;
+                double radius = (double)image_row(&filter->radius, 0, y)[x + l];
+                lanes.limit[l] = (float)(radius * radius);
             }
             if (any)
                 filter->kernel(&filter->taps, &lanes, &sums);
-            for (int l = 0; l < FILTER_LANES && x + l < width; l++) {
-                if (!is_glossy(filter, x + l, y))
-                    continue;
-                for (int i = 0; i < 3; i++) {
-                    double value = (double)image_row(&filter->gbuffer->specular, i, y)[x + l];
-                    if (lanes.limit[l] >= 0 && sums.value[3][l] > 0)
-                        value = sums.value[i][l] / sums.value[3][l] / filter->radiance_scale;
-                    image_row(filter->glossy, i, y)[x + l] = (float)fmax(-FLT_MAX, fmin(value, FLT_MAX));
-                }
-            }
+            for (int l = 0; l < FILTER_LANES && x + l < filter->taps.width; l++)
+                if (is_glossy(filter, x + l, y))
+                    pixel_write(filter, x + l, y,
+                                (double[]){sums.value[0][l], sums.value[1][l], sums.value[2][l]}, sums.value[3][l]);
         }
+}
+
+/* Square of the least angle by which the mirror direction turns from a pixel to a neighbour: the farther away things
+ * are, the nearer the angle between their endpoints comes to it. With a margin, for it changes over the picture. */
+static double gradient_least(const struct filter *filter, int x, int y)
+{
+    const double margin = 1.5;
+    double own[3], least = INFINITY;
+    float a[3];
+    position_at(filter, x, y, a);
+    direction_to(filter, a, x, y, own);
+    for (int n = 0; n < 4; n++) {
+        int u = x + neighbours[n][0], v = y + neighbours[n][1];
+        double other[3], square = 0;
+        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
+            continue;
+        position_at(filter, u, v, a);
+        direction_to(filter, a, u, v, other);
+        for (int i = 0; i < 3; i++)
+            square += (other[i] - own[i]) * (other[i] - own[i]);
+        least = fmin(least, square);
+    }
+    return isinf(least) ? 0 : least / (margin * margin);
+}
+
+/* tan^2(theta) at which nothing is left of the lobe: where cos^p is the floor, or the user's limit. */
+static double lobe_reach(const struct filter *filter, double phong)
+{
+    const double ninety_degrees = 0x1p99;
+    double limit = tan(filter->options->max_angle_rad), reach = pow(filter->floor, -2 / phong) - 1;
+    return fmin(fmin(reach, filter->options->max_angle_rad < pi / 2 ? limit * limit : INFINITY), ninety_degrees);
+}
+
+/* What the sums over all endpoints about a pixel, seen from its a or not, count beside the sums over what is seen. */
+struct help {
+    double share;   /* factor of these sums */
+    double missing; /* their weights come to this many steradians besides */
+};
+
+/* A lobe that is narrow for the mirror's curvature holds few pixels, and chance errs more there than what should be
+ * hidden: share = (pool_pixels / pixels in the lobe)^2, less a little. And half of what no seen pixel covers is taken from the others. */
+static struct help help_needed(const struct filter *filter, const struct filter_lanes *lanes, int l, double seen)
+{
+    double phong = exponent_at(filter, lanes->x + l, lanes->y), distance = (double)lanes->distance[l];
+    double area = (double)*tap_at(filter, FILTER_PLANE_AREA, lanes->x + l, lanes->y);
+    double pixels = lobe_integral(phong, 0) / (area / (distance * distance + area / (2 * pi)));
+    double lobe = lobe_integral(phong, filter->floor);
+    double few = pool_pixels / pixels;
+    struct help help = {.share = fmax(few * few - pool_share_least, 0),
+                        .missing = missing_share * fmax((1 - missing_least) * lobe - seen, 0)};
+    if (filter->options->without & FILTER_WITHOUT_POOL || image_row(&filter->radius, 0, lanes->y)[lanes->x + l] < 1)
+        return (struct help){0};
+    return help;
+}
+
+static void blur_best_lanes(struct filter *filter, int x, int y, float *scratch)
+{
+    struct filter_lanes lanes;
+    struct filter_sums seen = {0}, pool = {0};
+    struct help help[FILTER_LANES] = {{0}};
+    bool used[FILTER_LANES], steep = lanes_fill(filter, x, y, &lanes, used), any_help = false;
+    const bool any = steep, narrow = lanes.narrow;
+    lanes.limit_px = (int)filter->radius_limit_px;
+    lanes.floor = (float)filter->floor;
+    lanes.hidden = filter->options->without & FILTER_WITHOUT_VISIBILITY ? FLT_MAX : hidden_ratio;
+    for (int l = 0; l < FILTER_LANES; l++) {
+        if (!used[l])
+            continue;
+        lanes.reach[l] = (float)lobe_reach(filter, exponent_at(filter, x + l, y));
+        lanes.blind[l] = fminf(lanes.reach[l] * lanes.hidden, FLT_MAX);
+        lanes.step[l] = (float)gradient_least(filter, x + l, y);
+        steep = steep && lanes.reach[l] <= FILTER_NARROW_REACH;
+    }
+    lanes.narrow = steep;
+    if (any)
+        filter->see(&filter->taps, &lanes, scratch, &seen);
+    lanes.narrow = narrow;
+    for (int l = 0; l < FILTER_LANES; l++) {
+        if (used[l])
+            help[l] = help_needed(filter, &lanes, l, seen.value[3][l]);
+        if (help[l].share == 0 && help[l].missing == 0)
+            continue;
+        double radius = (double)image_row(&filter->radius, 0, y)[x + l];
+        lanes.limit[l] = (float)(radius * radius);
+        any_help = true;
+    }
+    if (any_help)
+        filter->kernel(&filter->taps, &lanes, &pool);
+    for (int l = 0; l < FILTER_LANES && x + l < filter->taps.width; l++) {
+        if (!is_glossy(filter, x + l, y))
+            continue;
+        double sums[4], share = help[l].share;
+        if (help[l].missing > 0 && pool.value[3][l] > 0)
+            share += help[l].missing / pool.value[3][l];
+        for (int i = 0; i < 4; i++)
+            sums[i] = seen.value[i][l] + share * pool.value[i][l];
+        pixel_write(filter, x + l, y, sums, sums[3]);
+        double lobe = lobe_integral(exponent_at(filter, x + l, y), filter->floor);
+        image_row(&filter->confidence, 0, y)[x + l] = used[l] ? (float)fmin(seen.value[3][l] / lobe, 1) : 1;
+    }
+}
+
+static void blur_best(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    float *scratch = aligned_alloc(64, FILTER_SEE_COLUMNS(filter->taps.width) * 3 * FILTER_LANES * sizeof *scratch);
+    if (!scratch) {
+        atomic_store(&filter->out_of_memory, true);
+        return;
+    }
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < filter->taps.width && !interrupt_signal(); x += FILTER_LANES)
+            blur_best_lanes(filter, x, y, scratch);
+    free(scratch);
 }
 
 /* Mean of the results of the nearest ring of pixels that has glossy ones. */
@@ -368,7 +579,7 @@ static void edge_fill(const struct filter *filter, int x, int y)
         int count = 0;
         for (int v = y - reach; v <= y + reach; v++)
             for (int u = x - reach; u <= x + reach; u++) {
-                if (u < 0 || v < 0 || u >= filter->taps.width || v >= filter->taps.height || !is_glossy(filter, u, v))
+                if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
                     continue;
                 for (int i = 0; i < 3; i++)
                     sum[i] += (double)image_row(filter->glossy, i, v)[u];
@@ -408,7 +619,7 @@ static enum result check_plane(const struct image *image, const char *name, int 
 
 static enum result check(const struct gbuffer *gbuffer, const struct filter_options *options, struct error *err)
 {
-    assert(options->energy > 0 && options->energy < 1 && options->max_angle_rad > 0 && options->max_radius_px >= 0);
+    assert(options->energy >= 0 && options->energy < 1 && options->max_angle_rad > 0 && options->max_radius_px >= 0);
     assert(options->radius_step > 0 && options->threads >= 0 && !(options->phong < 0));
     const struct image *size = &gbuffer->specular;
     enum result result = check_plane(size, "specular", 3, size, err);
@@ -435,9 +646,15 @@ static enum result filter_alloc(struct filter *filter, struct error *err)
     static filter_kernel *const kernels[CPU_ISA_COUNT] = {[CPU_ISA_SSE2] = filter_kernel_sse2,
                                                           [CPU_ISA_AVX2] = filter_kernel_avx2,
                                                           [CPU_ISA_AVX512] = filter_kernel_avx512};
+    static filter_see *const sees[CPU_ISA_COUNT] = {
+        [CPU_ISA_SSE2] = filter_see_sse2, [CPU_ISA_AVX2] = filter_see_avx2, [CPU_ISA_AVX512] = filter_see_avx512};
     const struct filter_options *options = filter->options;
     const int width = filter->gbuffer->specular.width, height = filter->gbuffer->specular.height;
-    filter->kernel = kernels[options->isa == CPU_ISA_AUTO ? cpu_isa_best() : options->isa];
+    const enum cpu_isa isa = options->isa == CPU_ISA_AUTO ? cpu_isa_best() : options->isa;
+    filter->kernel = kernels[isa];
+    filter->see = sees[isa];
+    filter->energy = options->energy > 0 ? options->energy : 0.99;
+    filter->floor = options->energy > 0 ? 1 - options->energy : 0.001;
     filter->radius_limit_px = hypot(width, height);
     if (options->max_radius_px > 0)
         filter->radius_limit_px = fmin(filter->radius_limit_px, options->max_radius_px);
@@ -462,25 +679,28 @@ static enum result filter_alloc(struct filter *filter, struct error *err)
         .kinds = filter->kinds,
         .boxes = filter->boxes,
         .square = options->window == FILTER_WINDOW_SQUARE,
-        .shape = shape_of(options->weights),
+        .shape = options->mode == FILTER_MODE_PAPER ? shape_of(options->weights) : FILTER_SHAPE_SOLID,
         .table = filter->table,
     };
     for (int i = 0; i < FILTER_PLANES; i++)
         filter->taps.planes[i] = filter->planes + (size_t)i * plane;
     enum result result = image_alloc(&filter->radius, width, height, 1, err);
     if (result == RESULT_OK)
+        result = image_alloc(&filter->confidence, width, height, 1, err);
+    if (result == RESULT_OK)
         result = image_alloc(filter->glossy, width, height, 3, err);
     return result;
 }
 
 enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_options *options, struct image *glossy,
-                          struct image *radius, struct error *err)
+                          struct image *measure, struct error *err)
 {
     struct filter filter = {.gbuffer = gbuffer, .options = options, .glossy = glossy};
     const int threads = options->threads, step = options->radius_step;
+    const bool paper = options->mode == FILTER_MODE_PAPER;
     *glossy = (struct image){0};
-    if (radius)
-        *radius = (struct image){0};
+    if (measure)
+        *measure = (struct image){0};
     enum result result = check(gbuffer, options, err);
     if (result != RESULT_OK)
         return result;
@@ -491,23 +711,29 @@ enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_opt
 
     scales_find(&filter);
     result = bands_run(height, 16, threads, taps_fill, &filter, err);
+    if (result == RESULT_OK && !paper)
+        result = bands_run(height, 16, threads, areas_fill, &filter, err);
     if (result == RESULT_OK)
         result = bands_run((height + step - 1) / step, 16, threads, radius_coarse, &filter, err);
     if (result == RESULT_OK)
         result = bands_run(height, 16, threads, radius_fine, &filter, err);
     if (result == RESULT_OK)
-        result = bands_run(height, 1, threads, blur, &filter, err);
+        result = bands_run(height, 1, threads, paper ? blur_paper : blur_best, &filter, err);
+    if (result == RESULT_OK && atomic_load(&filter.out_of_memory))
+        result = error_memory(err, (double)(FILTER_SEE_COLUMNS(filter.taps.width) * 3 * FILTER_LANES * sizeof(float)));
     if (result == RESULT_OK && gbuffer->reflectance.pixels)
         result = bands_run(height, 16, threads, edges, &filter, err);
-    if (result == RESULT_OK && radius) {
-        *radius = filter.radius;
-        filter.radius = (struct image){0};
+    if (result == RESULT_OK && measure) {
+        struct image *found = paper ? &filter.radius : &filter.confidence;
+        *measure = *found;
+        *found = (struct image){0};
     }
 
 out:
     if (result != RESULT_OK)
         image_free(glossy);
     image_free(&filter.radius);
+    image_free(&filter.confidence);
     free(filter.table);
     free(filter.boxes);
     free(filter.kinds);

@@ -1,6 +1,6 @@
-/* The paper's filter, equations (1) to (6): glossy radiance from a gbuffer.
+/* Glossy radiance from a gbuffer: by the sum over what each point sees, or by the paper's filter.
  *
- * "Fuzzy reflections rendering", Kulikova and Dmitriev, 2002.
+ * The paper, whose equations (1) to (6) keep their numbers: "Fuzzy reflections rendering", Kulikova and Dmitriev, 2002.
  */
 #ifndef POVGLOSS_FILTER_H
 #define POVGLOSS_FILTER_H
@@ -8,17 +8,24 @@
 #include "cpu.h"
 #include "gbuffer.h"
 
+enum filter_mode { FILTER_MODE_BEST, FILTER_MODE_PAPER };
 enum filter_weights { FILTER_WEIGHTS_EXACT, FILTER_WEIGHTS_TABLE, FILTER_WEIGHTS_GAUSS };
 enum filter_formula { FILTER_FORMULA_PHONG, FILTER_FORMULA_MAX }; /* equation (3), equation (2) */
 enum filter_window { FILTER_WINDOW_ROUND, FILTER_WINDOW_SQUARE };
 
+/* What the best filter may leave out, to measure what it is worth: the solid angle of each pixel (all count alike, but
+ * for the carry to the receiver), visibility, and the help of pixels that are not seen. */
+enum filter_without { FILTER_WITHOUT_DENSITY = 1, FILTER_WITHOUT_VISIBILITY = 2, FILTER_WITHOUT_POOL = 4 };
+
 struct filter_options {
-    enum filter_weights weights;
+    enum filter_mode mode;
+    enum filter_weights weights; /* weights, formula, window, radius_step: the paper's alone */
     enum filter_formula formula;
     enum filter_window window;
+    unsigned without;     /* set of enum filter_without */
     float phong;          /* exponent where the gbuffer has none: 0 to infinity; NaN: none is known */
     bool phong_override;  /* phong takes the place of the gbuffer's exponents, too; not glossy stays not glossy */
-    double energy;        /* share of the lobe's energy within Theta, (0, 1) */
+    double energy;        /* share of the lobe's energy within Theta, (0, 1); 0: 0.99 (paper), 0.999 (best) */
     double max_angle_rad; /* upper limit of Theta, (0, pi/2] */
     int max_radius_px;    /* upper limit of the radius; 0: none but the picture's diagonal */
     int radius_step;      /* 1, 2, 4 or 8: the radius is computed at every so-many-th pixel and interpolated */
@@ -26,13 +33,24 @@ struct filter_options {
     enum cpu_isa isa;     /* the result is the same to the last bit */
 };
 
-/* Exact weights, Phong formula, round window, no exponent, 0.99 of the energy, no limits, radius at every 4th pixel. */
+/* Best; exact weights, Phong formula, round window, no exponent, the mode's energy, no limits, radius at every pixel. */
 struct filter_options filter_options_default(void);
 
 /* glossy (allocated here, 3 channels; the caller frees it) = the specular plane blurred where the pixel is glossy;
  * where it is not glossy but the reflectance is above 0 (an antialiased edge) the mean of the nearest glossy pixels'
- * results, at most 3 pixels away; 0 elsewhere. radius, where not NULL, is allocated too: 1 channel, the radius of
- * equation (5) in pixels, 0 where not glossy.
+ * results, at most 3 pixels away; 0 elsewhere. measure, where not NULL, is allocated too, 1 channel, 0 where not
+ * glossy: of the paper the radius of equation (5) in pixels, of the best filter the confidence.
+ *
+ * FILTER_MODE_PAPER: equation (1). FILTER_MODE_BEST: sum f L0 / sum f over the pixels whose endpoints b' the pixel's own
+ * a sees, f = max(cos^p(theta) - (1 - energy), 0) times the solid angle at a of the area that b' stands for.
+ * - That area: of the pixel's directions, seen from its own a, the cross product of the differences across and down (of
+ *   the two neighbours on an axis the one that differs less), times its distance squared. From a it is the area over the
+ *   distance from a squared, less where that comes near a hemisphere: A / (r^2 + A / 2 pi).
+ * - Seen: see filter_see in filter_kernel.h. A non-glossy pixel hides what a surface that goes on like the pixel's own
+ *   would no longer reflect.
+ * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of
+ *   the lobe, and (16 / n)^2 where the lobe holds n pixels only.
+ * Confidence, 0 to 1: the sum of f over the lobe's integral, the share of the lobe that what is seen covers.
  *
  * Glossy is a pixel whose exponent is above 0 (with no phong plane: whatever the options say, 0 included), whose
  * position, endpoint and specular are finite, whose endpoint is not all zero and has W >= 0. Only glossy pixels are

@@ -1,4 +1,5 @@
-/* The innermost loops of the filter: sum f L0 and sum f of equation (1) for 16 neighbouring pixels.
+/* The innermost loops of the filter: sum f L0 and sum f for 16 neighbouring pixels, over the window of equation (1) or
+ * over what each pixel's a sees.
  *
  * Lanes are output pixels, taps are in the outer loops, so that the inner loops have a constant length and no branch,
  * and the compiler turns them into vectors. With v the direction from a lane's a to a tap's b', d the lane's own
@@ -10,6 +11,7 @@
 
 #include "weights.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -83,54 +85,77 @@ ALWAYS_INLINE float power_to_weight(float power)
     return power > LOWEST_POWER ? p : 0.0f;
 }
 
-/* The weights of one tap for all lanes: `tap` is the index of lane 0's tap in the planes, `separation` what the window
- * limits. For the table its position instead, at its end where the weight is 0. `mixed`: each lane looks for itself
- * whether the tap is of its own kind and not near. */
-ALWAYS_INLINE void tap_weights(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
-                               float separation, enum path path, bool mixed, float *restrict weights)
+/* c and q.q of lane l's tap; `tap` is the index of lane 0's in the planes. `mixed`: the lane looks for itself whether
+ * the tap is of its own kind and not near. */
+ALWAYS_INLINE void tap_angle(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap, int l,
+                             bool mixed, float *c, float *qq)
 {
     const float *bx = taps->planes[FILTER_PLANE_X] + tap;
     const float *by = taps->planes[FILTER_PLANE_Y] + tap;
     const float *bz = taps->planes[FILTER_PLANE_Z] + tap;
     const float *bw = taps->planes[FILTER_PLANE_W] + tap;
+    /* e = v - (the lane's own v), which is parallel to d; or v itself. */
+    float ex, ey, ez, own = lanes->distance[l];
+    if (mixed) {
+        float w = bw[l], ax = w * lanes->a[0][l], ay = w * lanes->a[1][l], az = w * lanes->a[2][l];
+        float vx = bx[l] - ax, vy = by[l] - ay, vz = bz[l] - az, vv = vx * vx + vy * vy + vz * vz;
+        float relative = own * own <= NEAR_RATIO * NEAR_RATIO * vv ? 1.0f : 0.0f;
+        relative *= 1.0f - fabsf(w - lanes->b[3][l]); /* 0 or 1: the products below are exact */
+        own *= relative;
+        ex = (bx[l] - relative * lanes->b[0][l]) - (1.0f - relative) * ax;
+        ey = (by[l] - relative * lanes->b[1][l]) - (1.0f - relative) * ay;
+        ez = (bz[l] - relative * lanes->b[2][l]) - (1.0f - relative) * az;
+    } else {
+        ex = bx[l] - lanes->b[0][l];
+        ey = by[l] - lanes->b[1][l];
+        ez = bz[l] - lanes->b[2][l];
+    }
+    float dx = lanes->direction[0][l], dy = lanes->direction[1][l], dz = lanes->direction[2][l];
+    float along = ex * dx + ey * dy + ez * dz;
+    float qx = ex - along * dx, qy = ey - along * dy, qz = ez - along * dz;
+    *qq = qx * qx + qy * qy + qz * qz;
+    *c = along + own;
+}
+
+/* -log2 cos^2(theta) for y = t / (2 + t), t = tan^2(theta): log2(1 + t) = 2 atanh(y) / log(2), within 2e-7 up to t = 1,
+ * and rising beyond. */
+ALWAYS_INLINE float narrow_log2(float y)
+{
+    float yy = y * y;
+    float p = 0.493777514f;
+    p = p * yy + 0.57115519f;
+    p = p * yy + 0.961931407f;
+    p = p * yy + 2.88538957f;
+    return p * y;
+}
+
+/* Solid angle of a tap's pixel as seen from a lane's a: its area over the distance squared, 2 pi at most. */
+ALWAYS_INLINE float solid_angle(float area, float c, float qq)
+{
+    const float per_hemisphere = 0.159154943f;
+    return area / ((c * c + qq) + (area * per_hemisphere + FLT_MIN));
+}
+
+/* The weights of one tap for all lanes; `separation` is what the window limits. For the table its position instead, at
+ * its end where the weight is 0. `solid`: times the solid angle. */
+ALWAYS_INLINE void tap_weights(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
+                               float separation, enum path path, bool mixed, bool solid, float *restrict weights)
+{
+    const float *area = taps->planes[FILTER_PLANE_AREA] + tap;
     const float none = path == PATH_TABLE ? (float)WEIGHTS_TABLE_LAST : 0.0f;
     for (int l = 0; l < FILTER_LANES; l++) {
-        /* e = v - (the lane's own v), which is parallel to d; or v itself. */
-        float ex, ey, ez, own = lanes->distance[l];
-        if (mixed) {
-            float w = bw[l], ax = w * lanes->a[0][l], ay = w * lanes->a[1][l], az = w * lanes->a[2][l];
-            float vx = bx[l] - ax, vy = by[l] - ay, vz = bz[l] - az, vv = vx * vx + vy * vy + vz * vz;
-            float relative = own * own <= NEAR_RATIO * NEAR_RATIO * vv ? 1.0f : 0.0f;
-            relative *= 1.0f - fabsf(w - lanes->b[3][l]); /* 0 or 1: the products below are exact */
-            own *= relative;
-            ex = (bx[l] - relative * lanes->b[0][l]) - (1.0f - relative) * ax;
-            ey = (by[l] - relative * lanes->b[1][l]) - (1.0f - relative) * ay;
-            ez = (bz[l] - relative * lanes->b[2][l]) - (1.0f - relative) * az;
-        } else {
-            ex = bx[l] - lanes->b[0][l];
-            ey = by[l] - lanes->b[1][l];
-            ez = bz[l] - lanes->b[2][l];
-        }
-        float dx = lanes->direction[0][l], dy = lanes->direction[1][l], dz = lanes->direction[2][l];
-        float along = ex * dx + ey * dy + ez * dz;
-        float qx = ex - along * dx, qy = ey - along * dy, qz = ez - along * dz;
-        float qq = qx * qx + qy * qy + qz * qz;
-        float c = along + own, cc = c * c;
-        float f;
+        float c, qq, f;
+        tap_angle(taps, lanes, tap, l, mixed, &c, &qq);
         if (path == PATH_NARROW) {
-            /* log2(1 + t) = 2 atanh(y) / log(2), y = t/(2 + t): within 2e-7 up to t = 1, and rising beyond. */
-            float y = qq / (2.0f * cc + qq), yy = y * y;
-            float p = 0.493777514f;
-            p = p * yy + 0.57115519f;
-            p = p * yy + 0.961931407f;
-            p = p * yy + 2.88538957f;
-            f = power_to_weight(-lanes->slope[l] * (p * y));
+            f = power_to_weight(-lanes->slope[l] * narrow_log2(qq / (2.0f * (c * c) + qq)));
         } else {
-            float t = qq / cc;
+            float t = qq / (c * c);
             t = t < 0x1p100f ? t : 0x1p100f; /* also where c is 0, and NaN */
             float position = lanes->slope[l] * (path == PATH_GAUSS ? t : log2_of_1_plus(t));
             f = path != PATH_TABLE ? power_to_weight(-position) : position < none ? position : none;
         }
+        if (solid)
+            f *= solid_angle(area[l], c, qq);
         f = c > 0.0f ? f : none;
         weights[l] = separation <= lanes->limit[l] ? f : none;
     }
@@ -148,10 +173,11 @@ ALWAYS_INLINE void look_up(const float *table, float *weights)
 
 /* One tap for all lanes. */
 ALWAYS_INLINE void add_tap(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
-                           float separation, enum path path, bool mixed, float (*sums)[FILTER_LANES])
+                           float separation, enum path path, bool mixed, bool solid,
+                           float (*sums)[FILTER_LANES])
 {
     _Alignas(64) float weights[FILTER_LANES];
-    tap_weights(taps, lanes, tap, separation, path, mixed, weights);
+    tap_weights(taps, lanes, tap, separation, path, mixed, solid, weights);
     if (path == PATH_TABLE)
         look_up(taps->table, weights);
     for (int l = 0; l < FILTER_LANES; l++) {
@@ -165,7 +191,7 @@ ALWAYS_INLINE void add_tap(const struct filter_taps *taps, const struct filter_l
 
 /* Up to 16 columns of one row of taps. Floats hold the sum of these few; more would lose digits. */
 ALWAYS_INLINE void add_columns(const struct filter_taps *taps, const struct filter_lanes *lanes, int dy, int first,
-                               int last, enum path path, bool mixed, struct filter_sums *restrict sums)
+                               int last, enum path path, bool mixed, bool solid, struct filter_sums *restrict sums)
 {
     _Alignas(64) float partial[4][FILTER_LANES] = {{0}};
     size_t row = (size_t)(lanes->y + dy) * taps->stride;
@@ -175,7 +201,7 @@ ALWAYS_INLINE void add_columns(const struct filter_taps *taps, const struct filt
             int side = abs(dx) > abs(dy) ? abs(dx) : abs(dy);
             separation = (float)side * (float)side;
         }
-        add_tap(taps, lanes, row + (size_t)(lanes->x + dx + FILTER_BORDER), separation, path, mixed, partial);
+        add_tap(taps, lanes, row + (size_t)(lanes->x + dx + FILTER_BORDER), separation, path, mixed, solid, partial);
     }
     for (int i = 0; i < 4; i++)
         for (int l = 0; l < FILTER_LANES; l++)
@@ -185,20 +211,24 @@ ALWAYS_INLINE void add_columns(const struct filter_taps *taps, const struct filt
 /* One function per path, so that the compiler lays out the registers of each by itself. */
 typedef void add_columns_function(const struct filter_taps *taps, const struct filter_lanes *lanes, int dy, int first,
                                   int last, struct filter_sums *sums);
-#define DEFINE_PATH(name, path, mixed)                                                                                 \
+#define DEFINE_PATH(name, path, mixed, solid)                                                                          \
     __attribute__((noinline)) static void name(const struct filter_taps *taps, const struct filter_lanes *lanes,       \
                                                int dy, int first, int last, struct filter_sums *sums)                  \
     {                                                                                                                  \
-        add_columns(taps, lanes, dy, first, last, path, mixed, sums);                                                  \
+        add_columns(taps, lanes, dy, first, last, path, mixed, solid, sums);                                           \
     }
-DEFINE_PATH(add_narrow, PATH_NARROW, false)
-DEFINE_PATH(add_narrow_mixed, PATH_NARROW, true)
-DEFINE_PATH(add_power, PATH_POWER, false)
-DEFINE_PATH(add_power_mixed, PATH_POWER, true)
-DEFINE_PATH(add_table, PATH_TABLE, false)
-DEFINE_PATH(add_table_mixed, PATH_TABLE, true)
-DEFINE_PATH(add_gauss, PATH_GAUSS, false)
-DEFINE_PATH(add_gauss_mixed, PATH_GAUSS, true)
+DEFINE_PATH(add_narrow, PATH_NARROW, false, false)
+DEFINE_PATH(add_narrow_mixed, PATH_NARROW, true, false)
+DEFINE_PATH(add_power, PATH_POWER, false, false)
+DEFINE_PATH(add_power_mixed, PATH_POWER, true, false)
+DEFINE_PATH(add_table, PATH_TABLE, false, false)
+DEFINE_PATH(add_table_mixed, PATH_TABLE, true, false)
+DEFINE_PATH(add_gauss, PATH_GAUSS, false, false)
+DEFINE_PATH(add_gauss_mixed, PATH_GAUSS, true, false)
+DEFINE_PATH(add_narrow_solid, PATH_NARROW, false, true)
+DEFINE_PATH(add_narrow_solid_mixed, PATH_NARROW, true, true)
+DEFINE_PATH(add_power_solid, PATH_POWER, false, true)
+DEFINE_PATH(add_power_solid_mixed, PATH_POWER, true, true)
 
 static add_columns_function *choose(enum filter_shape shape, bool narrow, bool mixed)
 {
@@ -207,6 +237,10 @@ static add_columns_function *choose(enum filter_shape shape, bool narrow, bool m
         return mixed ? add_table_mixed : add_table;
     case FILTER_SHAPE_GAUSS:
         return mixed ? add_gauss_mixed : add_gauss;
+    case FILTER_SHAPE_SOLID:
+        if (narrow)
+            return mixed ? add_narrow_solid_mixed : add_narrow_solid;
+        return mixed ? add_power_solid_mixed : add_power_solid;
     case FILTER_SHAPE_POWER:
         break;
     }
@@ -264,6 +298,258 @@ void CONCATENATE(filter_kernel_, FILTER_KERNEL_ISA)(const struct filter_taps *ta
                 continue;
             int from = dx > first ? dx : first, to = dx + FILTER_LANES - 1 < last ? dx + FILTER_LANES - 1 : last;
             (is_mixed(taps, lanes, block) ? mixed : uniform)(taps, lanes, dy, from, to, sums);
+        }
+    }
+}
+
+/* --- what a sees --- */
+
+/* tan^2 of the largest angle on the way to one tap and at it, for all lanes. Rows of these are indexed by dx. */
+typedef float state[FILTER_LANES];
+
+/* Both neighbours towards the lanes' own pixels that a straight line from there may come through; twice the same where
+ * there is one. */
+struct way {
+    const float *first, *second;
+};
+
+ALWAYS_INLINE struct way way_to(state *here, state *above, int dx, int dy)
+{
+    int inward = dx > 0 ? -1 : 1, column = dx < 0 ? -dx : dx;
+    if (dx == 0)
+        return (struct way){above[dx], above[dx]};
+    if (dy == 0)
+        return (struct way){here[dx + inward], here[dx + inward]};
+    if (column == dy)
+        return (struct way){above[dx + inward], above[dx + inward]};
+    return (struct way){above[dx + inward], column < dy ? above[dx] : here[dx + inward]};
+}
+
+/* log2(1 + t) for t up to FILTER_NARROW_REACH, within 3e-7; anything beyond. */
+ALWAYS_INLINE float narrow_log2_of_1_plus(float t)
+{
+    float p = -0.240449173f;
+    p = p * t + 0.288539008f;
+    p = p * t - 0.36067376f;
+    p = p * t + 0.480898347f;
+    p = p * t - 0.72134752f;
+    p = p * t + 1.44269504f;
+    return p * t;
+}
+
+/* One tap for all lanes, `separation` pixels^2 away; `least` is lowered to its state less where the lanes are blind.
+ * Where no endpoint is known the angle is what a surface that goes on unchanged would give for the farthest things. */
+ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
+                           float separation, bool narrow, bool mixed, const float *restrict before,
+                           float *restrict own, float *restrict least, float (*sums)[FILTER_LANES])
+{
+    const float *area = taps->planes[FILTER_PLANE_AREA] + tap;
+    const float *red = taps->planes[FILTER_PLANE_R] + tap;
+    const float *green = taps->planes[FILTER_PLANE_G] + tap;
+    const float *blue = taps->planes[FILTER_PLANE_B] + tap;
+    _Alignas(64) float largest[FILTER_LANES]; /* nothing else can lie here: no check stands before the vectors */
+    for (int l = 0; l < FILTER_LANES; l++) {
+        float c, qq, high = before[l], reach = lanes->reach[l], far = lanes->step[l] * separation;
+        tap_angle(taps, lanes, tap, l, mixed, &c, &qq);
+        float t = qq / (c * c);
+        t = t < 0x1p100f ? t : 0x1p100f; /* also NaN */
+        t = c > 0.0f ? t : 0x1p100f;
+        float f = power_to_weight(-lanes->slope[l] * (narrow ? narrow_log2_of_1_plus(t) : log2_of_1_plus(t)));
+        f -= lanes->floor;
+        f = f > 0.0f ? f : 0.0f;
+        f = t * lanes->hidden >= high ? f : 0.0f;
+        f = t <= reach ? f : 0.0f;
+        f *= solid_angle(area[l], c, qq);
+        t = area[l] > 0.0f ? t : far;
+        t = t > high ? t : high;
+        largest[l] = t;
+        t -= lanes->blind[l];
+        least[l] = t < least[l] ? t : least[l];
+        sums[0][l] += f * red[l];
+        sums[1][l] += f * green[l];
+        sums[2][l] += f * blue[l];
+        sums[3][l] += f;
+    }
+    memcpy(own, largest, sizeof largest);
+}
+
+/* The same where no lane finds an endpoint. */
+ALWAYS_INLINE void see_nothing(const struct filter_lanes *lanes, float separation, const float *restrict before,
+                               float *restrict own, float *restrict least)
+{
+    for (int l = 0; l < FILTER_LANES; l++) {
+        float t = lanes->step[l] * separation;
+        t = t > before[l] ? t : before[l];
+        own[l] = t;
+        t -= lanes->blind[l];
+        least[l] = t < least[l] ? t : least[l];
+    }
+}
+
+/* Up to CHUNK taps of one row, dx from first to last in steps of +-1. Whether any lane sees on. */
+ALWAYS_INLINE bool see_columns(const struct filter_taps *taps, const struct filter_lanes *lanes, int first, int last,
+                               int dy, bool narrow, bool mixed, bool nothing, state *here, state *above,
+                               struct filter_sums *restrict sums)
+{
+    _Alignas(64) float partial[4][FILTER_LANES] = {{0}};
+    _Alignas(64) float least[FILTER_LANES], before[FILTER_LANES];
+    size_t row = (size_t)(lanes->y + dy) * taps->stride;
+    int away = abs(dy), step = last < first ? -1 : 1, count = abs(last - first) + 1;
+    for (int l = 0; l < FILTER_LANES; l++)
+        least[l] = INFINITY;
+    for (int i = 0, dx = first; i < count; i++, dx += step) {
+        float separation = (float)dx * (float)dx + (float)dy * (float)dy;
+        struct way way = way_to(here, above, dx, away);
+        for (int l = 0; l < FILTER_LANES; l++)
+            before[l] = way.first[l] < way.second[l] ? way.first[l] : way.second[l];
+        if (nothing)
+            see_nothing(lanes, separation, before, here[dx], least);
+        else
+            see_tap(taps, lanes, row + (size_t)(lanes->x + dx + FILTER_BORDER), separation, narrow, mixed, before,
+                    here[dx],
+                    least, partial);
+    }
+    for (int i = 0; i < 4 && !nothing; i++)
+        for (int l = 0; l < FILTER_LANES; l++)
+            sums->value[i][l] += (double)partial[i][l];
+    float smallest = INFINITY;
+    for (int l = 0; l < FILTER_LANES; l++)
+        smallest = least[l] < smallest ? least[l] : smallest;
+    return smallest <= 0;
+}
+
+typedef bool see_columns_function(const struct filter_taps *taps, const struct filter_lanes *lanes, int first, int last,
+                                  int dy, state *here, state *above, struct filter_sums *sums);
+#define DEFINE_SEE(name, narrow, mixed, nothing)                                                                       \
+    __attribute__((noinline)) static bool name(const struct filter_taps *taps, const struct filter_lanes *lanes,       \
+                                               int first, int last, int dy, state *here, state *above,                 \
+                                               struct filter_sums *sums)                                               \
+    {                                                                                                                  \
+        return see_columns(taps, lanes, first, last, dy, narrow, mixed, nothing, here, above, sums);                   \
+    }
+DEFINE_SEE(see_narrow, true, false, false)
+DEFINE_SEE(see_narrow_mixed, true, true, false)
+DEFINE_SEE(see_wide, false, false, false)
+DEFINE_SEE(see_wide_mixed, false, true, false)
+DEFINE_SEE(see_nowhere, false, false, true)
+
+/* For a chunk whose leftmost column is `left`: it meets two blocks of the planes. */
+static see_columns_function *choose_see(const struct filter_taps *taps, const struct filter_lanes *lanes, int left,
+                                        int dy)
+{
+    size_t block = ((size_t)(lanes->y + dy) * taps->stride + (size_t)(lanes->x + left + FILTER_BORDER)) / FILTER_LANES;
+    if (!taps->kinds[block] && !taps->kinds[block + 1])
+        return see_nowhere;
+    bool mixed = is_mixed(taps, lanes, block);
+    if (lanes->narrow)
+        return mixed ? see_narrow_mixed : see_narrow;
+    return mixed ? see_wide_mixed : see_wide;
+}
+
+/* Live chunks of CHUNK columns to one side of the lanes' own: chunk 0 begins beside column 0 (right: with it). */
+struct side {
+    int step;        /* 1: right, -1: left */
+    int first, last; /* live chunks; first > last: none */
+    int limit;       /* |dx| at most; below 0: no column */
+};
+
+enum { CHUNK = 8 };
+
+static int chunk_column(const struct side *side, int chunk)
+{
+    return side->step > 0 ? chunk * CHUNK : -1 - chunk * CHUNK;
+}
+
+static bool any_live(const struct filter_lanes *lanes, const float *angles)
+{
+    bool live = false;
+    for (int l = 0; l < FILTER_LANES; l++)
+        live = live || angles[l] <= lanes->blind[l];
+    return live;
+}
+
+static void close_column(state *row, int dx)
+{
+    for (int l = 0; l < FILTER_LANES; l++)
+        row[dx][l] = INFINITY;
+}
+
+static void close_chunk(const struct side *side, int chunk, state *row)
+{
+    for (int i = 0; i < CHUNK; i++)
+        close_column(row, chunk_column(side, chunk) + side->step * i);
+}
+
+/* One side of a row, outward from its live chunks of the row before. Columns that are
+ * looked at though nothing reached them are closed. */
+static void see_side(const struct filter_taps *taps, const struct filter_lanes *lanes, struct side *side, int dy,
+                     state *here, state *above, struct filter_sums *sums)
+{
+    const int first = side->first, last = side->last;
+    /* Column 0 belongs to the right; from it the left begins anew. */
+    bool anew = side->step < 0 && dy != 0 && any_live(lanes, above[0]), live = false;
+    int chunk = anew ? 0 : first, end = anew && last < 0 ? 0 : last;
+    side->first = 0;
+    side->last = -1;
+    if (side->step > 0 && (chunk > 0 || chunk > end))
+        close_column(here, 0);
+    if (chunk > end)
+        return;
+    if (chunk > 0)
+        close_column(here, chunk_column(side, chunk) - side->step);
+    if (dy != 0 && last >= 0)
+        end += any_live(lanes, above[chunk_column(side, last + 1) - side->step]);
+    for (; chunk <= end || live; chunk++) {
+        int from = chunk_column(side, chunk), to = from + side->step * (CHUNK - 1);
+        if (abs(from) > side->limit)
+            break;
+        see_columns_function *see = choose_see(taps, lanes, from < to ? from : to, dy);
+        if (dy != 0 && (chunk < first || chunk > last))
+            close_chunk(side, chunk, above);
+        for (; abs(to) > side->limit; to -= side->step)
+            close_column(here, to);
+        live = see(taps, lanes, from, to, dy, here, above, sums);
+        if (live && side->last < 0)
+            side->first = chunk;
+        if (live)
+            side->last = chunk;
+    }
+    if (chunk <= side->last + 1)
+        close_chunk(side, chunk, here);
+}
+
+/* One row, right and left. Whether there is more beyond. */
+static bool see_row(const struct filter_taps *taps, const struct filter_lanes *lanes, struct side sides[2], int dy,
+                    state *here, state *above, struct filter_sums *sums)
+{
+    double width = sqrt(fmax((double)lanes->limit_px * lanes->limit_px - (double)dy * dy, 0));
+    sides[0].limit = (int)fmin(width, taps->width - 1 - lanes->x);
+    sides[1].limit = (int)fmin(width, lanes->x + FILTER_LANES - 1);
+    see_side(taps, lanes, &sides[0], dy, here, above, sums);
+    see_side(taps, lanes, &sides[1], dy, here, above, sums);
+    return sides[0].first <= sides[0].last || sides[1].first <= sides[1].last;
+}
+
+void CONCATENATE(filter_see_, FILTER_KERNEL_ISA)(const struct filter_taps *taps, const struct filter_lanes *lanes,
+                                                 float *scratch, struct filter_sums *sums)
+{
+    size_t columns = FILTER_SEE_COLUMNS(taps->width);
+    state *rows = (state *)scratch + lanes->x + FILTER_LANES + 2 * CHUNK;
+    state *centre = rows, *others[2] = {rows + columns, rows + 2 * columns};
+    struct side start[2] = {{.step = 1, .first = 0, .last = 0}, {.step = -1, .first = 0, .last = 0}};
+    memset(sums, 0, sizeof *sums);
+    memset(others[0][0], 0, sizeof(state)); /* on the way to the lanes' own pixels there is nothing */
+    if (!see_row(taps, lanes, start, 0, centre, others[0], sums))
+        return;
+    for (int direction = -1; direction <= 1; direction += 2) {
+        struct side sides[2] = {start[0], start[1]};
+        state *above = centre;
+        int end = (int)fmin(lanes->limit_px, direction < 0 ? lanes->y : taps->height - 1 - lanes->y);
+        for (int away = 1; away <= end; away++) {
+            state *here = others[away & 1];
+            if (!see_row(taps, lanes, sides, direction * away, here, above, sums))
+                break;
+            above = here;
         }
     }
 }

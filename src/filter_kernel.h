@@ -24,13 +24,15 @@ enum filter_plane {
     FILTER_PLANE_R,    /* L0 */
     FILTER_PLANE_G,
     FILTER_PLANE_B,
+    FILTER_PLANE_AREA, /* of the pixel at b, across the ray (length^2), or its solid angle for W = 0; 0: unusable */
     FILTER_PLANES
 };
 
 /* What kinds of usable endpoints a block of 16 columns holds. */
 enum { FILTER_KIND_POSITION = 1, FILTER_KIND_DIRECTION = 2 };
 
-enum filter_shape { FILTER_SHAPE_POWER, FILTER_SHAPE_TABLE, FILTER_SHAPE_GAUSS };
+/* SOLID: the power times the solid angle of the tap's pixel. */
+enum filter_shape { FILTER_SHAPE_POWER, FILTER_SHAPE_TABLE, FILTER_SHAPE_GAUSS, FILTER_SHAPE_SOLID };
 
 /* Bounds of the usable positions in a block; low above high where there are none. */
 struct filter_box {
@@ -53,7 +55,8 @@ struct filter_taps {
 struct filter_lanes {
     int x, y;
     unsigned char kinds;               /* of the used lanes */
-    bool narrow;                       /* the slope of every used lane is at least FILTER_NARROW_SLOPE */
+    bool narrow;                       /* the slope of every used lane is at least FILTER_NARROW_SLOPE; for filter_see
+                                          the reach at most FILTER_NARROW_REACH */
     struct filter_box box;             /* of a, used lanes */
     float farthest;                    /* the largest distance of the used lanes with W = 1 */
     float a[3][FILTER_LANES];
@@ -64,6 +67,14 @@ struct filter_lanes {
      * Gaussian; t = tan^2(theta). */
     float slope[FILTER_LANES];
     float limit[FILTER_LANES];         /* rho^2, pixels^2 */
+    /* For filter_see alone: */
+    float reach[FILTER_LANES];         /* largest tan^2(theta) of the lobe */
+    float blind[FILTER_LANES];         /* nothing beyond a tap of a larger tan^2(theta) is seen within reach; -1: an
+                                          unused lane */
+    float step[FILTER_LANES];          /* tan^2(theta) at least, per pixel^2, where no endpoint is known */
+    float hidden;                      /* how many times larger tan^2(theta) is of what hides a tap */
+    float floor;                       /* taken off cos^p; what would be negative is 0 */
+    int limit_px;                      /* farthest tap from the lanes' own pixels */
 };
 
 /* sum f L0 (R, G, B) and sum f of equation (1). */
@@ -74,11 +85,28 @@ struct filter_sums {
 /* From this slope of the power (p = 240 and more) on, the weights are below 2^-120, that is 0, before tan(theta)
  * reaches 1. */
 #define FILTER_NARROW_SLOPE 120.0f
+#define FILTER_NARROW_REACH 0.13f
 
 /* Sums over the window of every lane (lanes with a limit below 0: sums of 0). Weights below 2^-120 are 0; so are those
  * of taps at 90 degrees and more from a lane's direction. */
 typedef void filter_kernel(const struct filter_taps *taps, const struct filter_lanes *lanes, struct filter_sums *sums);
 
 filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;
+
+/* Sums over the taps that every lane's a sees: weights (cos^p - floor) times the solid angle of the tap's pixel.
+ *
+ * All that the camera sees in the mirror along a straight line of pixels from the lane's own lies in one plane, and is in
+ * front of what follows on the line. A tap is hidden from a when a tap before it on the line was at an angle theta
+ * larger by some tolerance: then the line from a to its b passes behind that one. The taps that are seen are thus one patch around the
+ * lane's own pixel, which grows until all of its rim is out of reach. On the way to a tap lie both neighbours between
+ * which the straight line comes in, and the one with less in the way counts.
+ *
+ * scratch: FILTER_SEE_COLUMNS(width) * 3 * FILTER_LANES floats, aligned to 64 bytes, with any content. */
+typedef void filter_see(const struct filter_taps *taps, const struct filter_lanes *lanes, float *scratch,
+                        struct filter_sums *sums);
+
+#define FILTER_SEE_COLUMNS(width) ((size_t)(width) + 64)
+
+filter_see filter_see_sse2, filter_see_avx2, filter_see_avx512;
 
 #endif

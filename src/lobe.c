@@ -26,6 +26,13 @@ double lobe_half_angle(double phong, double energy, double max_angle_rad)
     return fmin(2 * asin(sqrt(versine / 2)), max_angle_rad);
 }
 
+double lobe_integral(double phong, double floor)
+{
+    const double pi = 3.14159265358979324;
+    double cosine = pow(floor, 1 / phong); /* where cos^p is the floor; 0 for p = 0 */
+    return 2 * pi * ((1 - cosine * floor) / (phong + 1) - floor * (1 - cosine));
+}
+
 double lobe_alpha(double half_angle_rad, double eye_distance, double endpoint_distance)
 {
     if (endpoint_distance == 0)

@@ -15,6 +15,10 @@ double lobe_weight_max(double strength, double shininess, double cosine);
  * but at most max_angle_rad. energy in (0, 1); p from 0 to infinity; p = infinity gives 0. */
 double lobe_half_angle(double phong, double energy, double max_angle_rad);
 
+/* Integral over the hemisphere of max(cos^p - floor, 0), steradians; 2 pi / (p + 1) for floor = 0. floor in [0, 1), p
+ * from 0 to infinity. */
+double lobe_integral(double phong, double floor);
+
 /* Equation (4): alpha = Theta / (1 + s/r), radians: the lobe's half-angle as the eye sees it. s = |a - eye| and r = |b
  * - a| in one unit, 0 to infinity. r = infinity (a miss) and s = 0 give Theta; r = 0 gives 0, whatever s. */
 double lobe_alpha(double half_angle_rad, double eye_distance, double endpoint_distance);

@@ -32,7 +32,7 @@ pipe_is_render() {
     passes_to "$@" > pipe.image && render -o render.image "$@" && cmp pipe.image render.image && expect_nothing_left
 }
 check "passes | glossfilter is render, PNG" pipe_is_render --format png
-check "passes | glossfilter is render, EXR with other options" pipe_is_render --format exr --weights table --energy 0.9 --layers
+check "passes | glossfilter is render, EXR with other options" pipe_is_render --format exr --mode paper --weights table --energy 0.9 --layers
 check "passes | glossfilter is render, 16 bits" pipe_is_render --format png --bits 16 --phong 300 --threads 3
 
 to_standard_output() {
@@ -45,6 +45,13 @@ by_name() {
 check "render to /dev/stdout" by_name
 
 "$povgloss" passes scene.pov "$library" "${size[@]}" --quiet -o passes.exr
+# layers_are LAYERS OPTION...
+layers_are() {
+    "$glossfilter" passes.exr --layers -o layers.exr "${@:2}" &&
+        oiiotool --info -v layers.exr | grep -qx "    channel list: R, G, B, $1"
+}
+check "--layers of the best filter" layers_are "confidence.V, glossy.R, glossy.G, glossy.B"
+check "--layers of the paper's" layers_are "glossy.R, glossy.G, glossy.B, radius.V" --mode paper
 same_from_file() {
     "$glossfilter" passes.exr -o from-file.png && cmp from-file.png file.png &&
         "$glossfilter" - --format png -o from-stdin.png < passes.exr && cmp from-stdin.png file.png &&

@@ -195,6 +195,179 @@ UNUSED static double oracle_pixel(const struct gbuffer *gbuffer, double radius, 
     return sum;
 }
 
+/* Unit direction at a(x, y) to the endpoint of (u, v); returns the distance, 1 for a direction. */
+UNUSED static double oracle_direction(const struct gbuffer *gbuffer, int x, int y, int u, int v, double direction[3])
+{
+    double w = (double)image_row(&gbuffer->endpoint, 3, v)[u], square = 0;
+    for (int i = 0; i < 3; i++) {
+        direction[i] = (double)image_row(&gbuffer->endpoint, i, v)[u] / (w > 0 ? w : 1) -
+                       (w > 0 ? (double)image_row(&gbuffer->position, i, y)[x] : 0);
+        square += direction[i] * direction[i];
+    }
+    for (int i = 0; i < 3; i++)
+        direction[i] /= sqrt(square);
+    return w > 0 ? sqrt(square) : 1;
+}
+
+UNUSED static bool oracle_inside(const struct gbuffer *gbuffer, int x, int y)
+{
+    return x >= 0 && y >= 0 && x < gbuffer->phong.width && y < gbuffer->phong.height && scene_glossy(gbuffer, x, y);
+}
+
+/* The best filter's area of a pixel: the cross product of the smaller one-sided differences, times distance^2. */
+UNUSED static double oracle_area(const struct gbuffer *gbuffer, int x, int y)
+{
+    double own[3], step[2][3] = {{0}}, length[2] = {INFINITY, INFINITY};
+    double distance = oracle_direction(gbuffer, x, y, x, y, own), solid;
+    for (int axis = 0; axis < 2; axis++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            int u = x + (axis ? 0 : sign), v = y + (axis ? sign : 0);
+            double other[3], size = 0;
+            if (!oracle_inside(gbuffer, u, v))
+                continue;
+            oracle_direction(gbuffer, x, y, u, v, other);
+            for (int i = 0; i < 3; i++)
+                size += (other[i] - own[i]) * (other[i] - own[i]);
+            if (sqrt(size) >= length[axis])
+                continue;
+            length[axis] = sqrt(size);
+            for (int i = 0; i < 3; i++)
+                step[axis][i] = sign * (other[i] - own[i]);
+        }
+    if (isinf(length[0]) || isinf(length[1])) {
+        double side = fmin(length[0], length[1]);
+        solid = isinf(side) ? 0 : side * side;
+    } else {
+        const double *s = step[0], *t = step[1];
+        solid = sqrt(pow(s[1] * t[2] - s[2] * t[1], 2) + pow(s[2] * t[0] - s[0] * t[2], 2) +
+                     pow(s[0] * t[1] - s[1] * t[0], 2));
+    }
+    return fmax(solid, 1e-12) * distance * distance;
+}
+
+/* tan^2 of the angle at a(x, y) between two endpoints; infinite from 90 degrees on. */
+UNUSED static double oracle_tangent(const struct gbuffer *gbuffer, int x, int y, int u, int v)
+{
+    double one[3], other[3], cosine = 0, sine = 0;
+    oracle_direction(gbuffer, x, y, x, y, one);
+    oracle_direction(gbuffer, x, y, u, v, other);
+    for (int i = 0; i < 3; i++)
+        cosine += one[i] * other[i];
+    for (int i = 0; i < 3; i++)
+        sine += (other[i] - cosine * one[i]) * (other[i] - cosine * one[i]);
+    return cosine > 0 ? sine / (cosine * cosine) : INFINITY;
+}
+
+/* Square of the least angle between the mirror directions of neighbours, with the margin of 1.5. */
+UNUSED static double oracle_gradient(const struct gbuffer *gbuffer, int x, int y)
+{
+    double own[3], least = INFINITY;
+    oracle_direction(gbuffer, x, y, x, y, own);
+    for (int n = 0; n < 4; n++) {
+        int u = x + (n == 0) - (n == 1), v = y + (n == 2) - (n == 3);
+        double other[3], square = 0;
+        if (!oracle_inside(gbuffer, u, v))
+            continue;
+        oracle_direction(gbuffer, u, v, u, v, other);
+        for (int i = 0; i < 3; i++)
+            square += (other[i] - own[i]) * (other[i] - own[i]);
+        least = fmin(least, square);
+    }
+    return isinf(least) ? 0 : least / 2.25;
+}
+
+/* The best filter at a glossy pixel, ring by ring over the whole picture; radius is that of the pool, equation (5).
+ * `ways`: width * height doubles, `areas` oracle_area of every pixel. Returns the confidence. */
+UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, double radius, const double *areas, double *ways,
+                                       int x, int y, double colour[3])
+{
+    const int width = gbuffer->phong.width, height = gbuffer->phong.height;
+    const double pi = 3.14159265358979324, floor_weight = 0.001;
+    const double p = (double)image_row(&gbuffer->phong, 0, y)[x], reach = pow(floor_weight, -2 / p) - 1;
+    const double gradient = oracle_gradient(gbuffer, x, y);
+    double seen[4] = {0}, pool[4] = {0}, own[3];
+    for (int m = 0; m < (width > height ? width : height); m++)
+        for (int v = y - m; v <= y + m; v++)
+            for (int u = x - m; u <= x + m; u++) {
+                int dx = u - x, dy = v - y, away = abs(dx) > abs(dy) ? abs(dx) : abs(dy);
+                if (away != m || u < 0 || v < 0 || u >= width || v >= height)
+                    continue;
+                /* The two pixels of the ring within that the line passes between, or the one that it meets. */
+                double before = 0;
+                if (m > 0) {
+                    double along = (double)(m - 1) / m;
+                    int u0 = x + (int)floor(dx * along), u1 = x + (int)ceil(dx * along);
+                    int v0 = y + (int)floor(dy * along), v1 = y + (int)ceil(dy * along);
+                    before = fmin(ways[v0 * width + u0], ways[v1 * width + u1]);
+                }
+                if (!scene_glossy(gbuffer, u, v)) {
+                    ways[v * width + u] = fmax(before, gradient * (dx * dx + dy * dy));
+                    continue;
+                }
+                double t = oracle_tangent(gbuffer, x, y, u, v), area = areas[v * width + u], direction[3];
+                double distance = oracle_direction(gbuffer, x, y, u, v, direction);
+                double solid = area / (distance * distance + area / (2 * pi)), weight = pow(1 + t, -p / 2);
+                ways[v * width + u] = fmax(before, t);
+                double f = 1.21 * t >= before && t <= reach ? fmax(weight - floor_weight, 0) * solid : 0;
+                for (int i = 0; i < 4; i++) {
+                    double value = i < 3 ? (double)image_row(&gbuffer->specular, i, v)[u] : 1;
+                    seen[i] += f * value;
+                    pool[i] += dx * dx + dy * dy <= radius * radius ? weight * solid * value : 0;
+                }
+            }
+    double distance = oracle_direction(gbuffer, x, y, x, y, own), area = areas[y * width + x], lobe = 2 * pi / (p + 1);
+    double share = pow(16 / (lobe / (area / (distance * distance + area / (2 * pi)))), 2);
+    double cosine = pow(floor_weight, 1 / p);
+    double cut = 2 * pi * ((1 - cosine * floor_weight) / (p + 1) - floor_weight * (1 - cosine));
+    share = fmax(share - 1.0 / 64, 0) + 0.5 * fmax(0.98 * cut - seen[3], 0) / pool[3];
+    if (radius < 1)
+        share = 0;
+    for (int i = 0; i < 3; i++)
+        colour[i] = (seen[i] + share * pool[i]) / (seen[3] + share * pool[3]);
+    return fmin(seen[3] / cut, 1);
+}
+
+/* Largest difference of the best filter's result and confidence from the oracle, relative to the largest value, over
+ * every `stride`-th glossy pixel. */
+UNUSED static double oracle_best_error(const struct gbuffer *gbuffer, const struct filter_options *options, int stride)
+{
+    struct image glossy, confidence, radius;
+    struct error err;
+    struct filter_options paper = *options;
+    const int width = gbuffer->phong.width, height = gbuffer->phong.height;
+    double *areas = malloc(2 * (size_t)width * (size_t)height * sizeof *areas), *ways = areas + width * height;
+    double worst = 0, largest = 0;
+    int count = 0;
+    paper.mode = FILTER_MODE_PAPER;
+    assert_ok(filter_glossy(gbuffer, &paper, &glossy, &radius, &err), err);
+    image_free(&glossy);
+    assert_ok(filter_glossy(gbuffer, options, &glossy, &confidence, &err), err);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            areas[y * width + x] = scene_glossy(gbuffer, x, y) ? oracle_area(gbuffer, x, y) : 0;
+            for (int i = 0; i < 3; i++)
+                largest = fmax(largest, fabs((double)image_row(&gbuffer->specular, i, y)[x]));
+        }
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            if (!scene_glossy(gbuffer, x, y) || count++ % stride != 0)
+                continue;
+            double expected[3], r = (double)image_row(&radius, 0, y)[x];
+            double error = fabs(oracle_best_pixel(gbuffer, r, areas, ways, x, y, expected) -
+                                (double)image_row(&confidence, 0, y)[x]);
+            for (int i = 0; i < 3; i++)
+                error = fmax(error, fabs((double)image_row(&glossy, i, y)[x] - expected[i]) / largest);
+            if (!(error <= worst))
+                worst = isnan(error) ? INFINITY : error;
+        }
+    assert_true(count > 0);
+    image_free(&glossy);
+    image_free(&confidence);
+    image_free(&radius);
+    free(areas);
+    return worst;
+}
+
 /* Largest relative difference of the filter's result from the oracle, over every `stride`-th glossy pixel. */
 UNUSED static double oracle_error(const struct gbuffer *gbuffer, const struct filter_options *options,
                                   oracle_weight *weight, int stride)

@@ -30,11 +30,13 @@ static void cli__plain_command__has_the_defaults(void **state)
     assert_int_equal(filter->formula, FILTER_FORMULA_PHONG);
     assert_int_equal(filter->window, FILTER_WINDOW_ROUND);
     assert_int_equal(filter->isa, CPU_ISA_AUTO);
-    assert_int_equal(filter->radius_step, 4);
+    assert_int_equal(filter->mode, FILTER_MODE_BEST);
+    assert_int_equal(filter->without, 0);
+    assert_int_equal(filter->radius_step, 1);
     assert_int_equal(filter->max_radius_px, 0);
     assert_int_equal(filter->threads, 0);
     assert_true(isnan(filter->phong) && !filter->phong_override);
-    assert_near(filter->energy, 0.99, 0);
+    assert_near(filter->energy, 0, 0);
     assert_near(filter->max_angle_rad, 1.5707963267948966, 1e-15);
     assert_int_equal(command.options.bits, 8);
     assert_false(command.options.layers || command.options.quiet || command.help || command.version);
@@ -44,13 +46,13 @@ static void cli__every_option__is_stored(void **state)
 {
     (void)state;
     struct cli_glossfilter command;
-    assert_ok(parse("a --phong 300 --weights=table --formula max --window square -o b.exr", &command), err);
+    assert_ok(parse("a --mode paper --phong 300 --weights=table --formula max --window square -o b.exr", &command), err);
     assert_near(command.options.filter.phong, 300, 0);
     assert_true(command.options.filter.phong_override);
     assert_int_equal(command.options.filter.weights, FILTER_WEIGHTS_TABLE);
     assert_int_equal(command.options.filter.formula, FILTER_FORMULA_MAX);
     assert_int_equal(command.options.filter.window, FILTER_WINDOW_SQUARE);
-    assert_ok(parse("a --max-radius 40 --radius-step=2 --energy 0.9 -o b.exr", &command), err);
+    assert_ok(parse("a --mode paper --max-radius 40 --radius-step=2 --energy 0.9 -o b.exr", &command), err);
     assert_int_equal(command.options.filter.max_radius_px, 40);
     assert_int_equal(command.options.filter.radius_step, 2);
     assert_near(command.options.filter.energy, 0.9, 0);
@@ -61,6 +63,10 @@ static void cli__every_option__is_stored(void **state)
     assert_int_equal(command.options.filter.isa, CPU_ISA_SSE2);
     assert_int_equal(command.options.filter.weights, FILTER_WEIGHTS_GAUSS);
     assert_true(command.options.layers && command.options.quiet);
+    assert_int_equal(command.options.filter.mode, FILTER_MODE_PAPER);
+    assert_ok(parse("a --mode best --without pool --without=density -o b.exr", &command), err);
+    assert_int_equal(command.options.filter.mode, FILTER_MODE_BEST);
+    assert_int_equal(command.options.filter.without, FILTER_WITHOUT_POOL | FILTER_WITHOUT_DENSITY);
     assert_ok(parse("- --output=b.png --bits 16 --roughness 0.5", &command), err);
     assert_string_equal(command.input, "-");
     assert_int_equal(command.options.bits, 16);
@@ -75,6 +81,20 @@ static void cli__every_option__is_stored(void **state)
     assert_true(command.version);
 }
 
+static void cli__option_of_the_other_mode__is_refused(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {"--weights table", "--formula max", "--window square", "--radius-step 4",
+                                        "--mode paper --without pool"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        struct cli_glossfilter command;
+        char line[64];
+        snprintf(line, sizeof line, "a -o b.exr %s", lines[i]);
+        if (parse(line, &command) != RESULT_USAGE || !strstr(err.text, "--mode"))
+            fail_msg("%s: %s", line, err.text);
+    }
+}
+
 static void cli__wrong_value__is_refused_by_name(void **state)
 {
     (void)state;
@@ -84,7 +104,7 @@ static void cli__wrong_value__is_refused_by_name(void **state)
         {"--window", "Round"},  {"--max-radius", "-1"}, {"--max-radius", "1.5"}, {"--radius-step", "3"},
         {"--energy", "1"},      {"--energy", "0"},     {"--max-angle", "0"},    {"--max-angle", "90.1"},
         {"--threads", "1e1"},   {"--threads", "9999"}, {"--isa", "avx"},        {"--format", "jpg"},
-        {"--bits", "12"},
+        {"--bits", "12"},       {"--without", "all"},
     };
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         struct cli_glossfilter command;
@@ -137,6 +157,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cli__plain_command__has_the_defaults),
         cmocka_unit_test(cli__every_option__is_stored),
+        cmocka_unit_test(cli__option_of_the_other_mode__is_refused),
         cmocka_unit_test(cli__wrong_value__is_refused_by_name),
         cmocka_unit_test(cli__wrong_command__is_refused),
         cmocka_unit_test(cli_filter_option__another_programs_switch__is_left_alone),

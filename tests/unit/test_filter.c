@@ -1,4 +1,4 @@
-/* The filter against equation (1) in double, all pixels by all pixels, and its properties. */
+/* Both filters against their sums in double, all pixels by all pixels, and their properties. */
 #include "cpu.h"
 #include "gloss_support.h"
 #include "interrupt.h"
@@ -12,9 +12,26 @@ static struct error err;
 static const struct scene plain_scene = {.scale = 1, .ball = true};
 static const struct scene bounded_scene = {.scale = 1, .bounded = true};
 
+static enum filter_mode tested_mode = FILTER_MODE_PAPER;
+
+static int setup_best(void **state)
+{
+    (void)state;
+    tested_mode = FILTER_MODE_BEST;
+    return 0;
+}
+
+static int teardown_best(void **state)
+{
+    (void)state;
+    tested_mode = FILTER_MODE_PAPER;
+    return 0;
+}
+
 static struct filter_options test_options(void)
 {
     struct filter_options options = filter_options_default();
+    options.mode = tested_mode;
     options.radius_step = 1;
     options.threads = 1;
     return options;
@@ -203,6 +220,128 @@ static void filter__very_far_endpoint__is_a_direction(void **state)
         image_free(&glossy);
         gbuffer_free(&gbuffer);
     }
+}
+
+/* --- the best filter --- */
+
+static void filter_best__sums__match_the_oracle(void **state)
+{
+    (void)state;
+    static const float exponents[] = {1, 10, 60, 300, 1000, 1e4f, 1e6f};
+    for (int view = 0; view < 2; view++)
+        for (int bounded = 0; bounded < 2; bounded++)
+            for (int i = 0; i < 7; i++) {
+                struct scene scene = {.scale = 1, .ball = true, .bounded = bounded, .view_angle = view * 0.1};
+                struct filter_options options = test_options();
+                struct gbuffer gbuffer;
+                scene_draw(&scene, 83, 61, exponents[i], &gbuffer);
+                double error = oracle_best_error(&gbuffer, &options, 23);
+                if (!(error < 2e-5))
+                    fail_msg("p = %g, bounded %d, view %d: error %g", (double)exponents[i], bounded, view, error);
+                gbuffer_free(&gbuffer);
+            }
+}
+
+static void filter_best__widths_1_to_67__match_the_oracle(void **state)
+{
+    (void)state;
+    for (int width = 1; width <= 67; width++) {
+        struct scene scene = {.scale = 1, .ball = true, .view_angle = 1.1};
+        struct filter_options options = test_options();
+        struct gbuffer gbuffer;
+        scene_draw(&scene, width, width / 2 + 3, 50, &gbuffer);
+        bool any = false;
+        for (int y = 0; y < gbuffer.phong.height; y++)
+            for (int x = 0; x < width; x++)
+                any = any || scene_glossy(&gbuffer, x, y);
+        double error = any ? oracle_best_error(&gbuffer, &options, 3) : 0;
+        if (!(error < 2e-5))
+            fail_msg("width %d: error %g", width, error);
+        gbuffer_free(&gbuffer);
+    }
+}
+
+/* A mirror in the plane z = 0 with an eye at z = -1 over it: pixel (x, y) looks at (x - 32, y - 32) / 100. Endpoints lie
+ * in the plane z = -distance. */
+static void wall_gbuffer(struct gbuffer *gbuffer, float phong, float near_columns, float near)
+{
+    gbuffer_alloc(gbuffer, 64, 64);
+    gbuffer->has_eye = true;
+    gbuffer->view_angle = 0.6f;
+    gbuffer->eye[2] = -1;
+    for (int y = 0; y < 64; y++)
+        for (int x = 0; x < 64; x++) {
+            float a[2] = {(float)(x - 32) / 100, (float)(y - 32) / 100}, distance = (float)x < near_columns ? near : 9;
+            for (int i = 0; i < 2; i++) {
+                image_row(&gbuffer->position, i, y)[x] = a[i];
+                image_row(&gbuffer->endpoint, i, y)[x] = a[i] * (1 + distance);
+            }
+            image_row(&gbuffer->endpoint, 2, y)[x] = -distance;
+            image_row(&gbuffer->endpoint, 3, y)[x] = 1;
+            image_row(&gbuffer->specular, 0, y)[x] = (float)x < near_columns ? 1 : 0;
+            image_row(&gbuffer->phong, 0, y)[x] = phong;
+        }
+}
+
+static void filter_best__wall_across_the_lobe__is_seen_in_full(void **state)
+{
+    (void)state;
+    struct filter_options options = test_options();
+    struct gbuffer gbuffer;
+    struct image glossy, confidence;
+    options.mode = FILTER_MODE_BEST;
+    wall_gbuffer(&gbuffer, 1000, 0, 1);
+    filter_run(&gbuffer, &options, &glossy, &confidence);
+    assert_near(image_row(&confidence, 0, 32)[32], 1, 0.005);
+    assert_near(image_row(&confidence, 0, 32)[0], 0.5, 0.08); /* the picture's border */
+    assert_near(image_row(&confidence, 0, 0)[0], 0.25, 0.08);
+    image_free(&glossy);
+    image_free(&confidence);
+    gbuffer_free(&gbuffer);
+}
+
+static void filter_best__density__weighs_near_things_by_their_solid_angle(void **state)
+{
+    (void)state;
+    /* Left: a bright wall 1 from the mirror that ends half a pixel left of the middle, 0.01 off; right: a dark one, 9.
+     * The lobe is a Gaussian of variance 1/300: 0.43 of it are bright. By pixels it would be 0.19: a pixel of the near
+     * wall covers 3.2 times the solid angle. */
+    for (unsigned without = 0; without <= FILTER_WITHOUT_DENSITY; without++) {
+        struct filter_options options = test_options();
+        struct gbuffer gbuffer;
+        struct image glossy;
+        options.mode = FILTER_MODE_BEST;
+        options.without = without;
+        wall_gbuffer(&gbuffer, 300, 32, 1);
+        filter_run(&gbuffer, &options, &glossy, NULL);
+        if (without)
+            assert_near(image_row(&glossy, 0, 32)[32], 0.19, 0.05);
+        else
+            assert_near(image_row(&glossy, 0, 32)[32], 0.43, 0.03);
+        image_free(&glossy);
+        gbuffer_free(&gbuffer);
+    }
+}
+
+static void filter_best__what_a_near_wall_hides__is_not_seen(void **state)
+{
+    (void)state;
+    /* Three pixels left of the near wall's edge its rest fills the right of the lobe up to 0.6 radians, far beyond
+     * its end: nothing of the dark wall behind is seen. */
+    struct filter_options options = test_options();
+    struct gbuffer gbuffer;
+    struct image seen, all;
+    options.mode = FILTER_MODE_BEST;
+    options.without = FILTER_WITHOUT_POOL;
+    wall_gbuffer(&gbuffer, 300, 40, 0.05f);
+    filter_run(&gbuffer, &options, &seen, NULL);
+    options.without |= FILTER_WITHOUT_VISIBILITY;
+    filter_run(&gbuffer, &options, &all, NULL);
+    assert_near(image_row(&seen, 0, 32)[36], 1, 1e-6);
+    assert_true(image_row(&all, 0, 32)[36] < 0.95f);
+    image_free(&seen);
+    image_free(&all);
+    gbuffer_free(&gbuffer);
 }
 
 /* --- properties --- */
@@ -411,7 +550,11 @@ static void filter__mirror__is_the_specular_plane(void **state)
         struct image glossy;
         scene_draw(&plain_scene, 67, 50, exponents[i], &gbuffer);
         filter_run(&gbuffer, &options, &glossy, NULL);
-        assert_true(image_same(&glossy, &gbuffer.specular));
+        assert_true(exponents[i] < 1e20f || image_same(&glossy, &gbuffer.specular));
+        for (int y = 0; y < 50; y++)
+            for (int x = 0; x < 67; x++)
+                assert_near(image_row(&glossy, 0, y)[x], image_row(&gbuffer.specular, 0, y)[x],
+                            options.mode == FILTER_MODE_PAPER ? 0 : 1e-6);
         image_free(&glossy);
         gbuffer_free(&gbuffer);
     }
@@ -702,6 +845,9 @@ static void filter__signal__stops_it(void **state)
     gbuffer_free(&gbuffer);
 }
 
+/* A test of the paper's filter that holds for the best one, too. */
+#define BEST_TOO(test) {#test " (best)", test, setup_best, teardown_best, NULL}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -714,6 +860,23 @@ int main(void)
         cmocka_unit_test(filter__homogeneous_scale_of_the_endpoint__does_not_matter),
         cmocka_unit_test(filter__lengths_1e_minus_24_to_1e24__give_one_picture),
         cmocka_unit_test(filter__very_far_endpoint__is_a_direction),
+        {"filter_best__sums__match_the_oracle", filter_best__sums__match_the_oracle, setup_best, teardown_best, NULL},
+        {"filter_best__widths_1_to_67__match_the_oracle", filter_best__widths_1_to_67__match_the_oracle, setup_best,
+         teardown_best, NULL},
+        cmocka_unit_test(filter_best__wall_across_the_lobe__is_seen_in_full),
+        cmocka_unit_test(filter_best__density__weighs_near_things_by_their_solid_angle),
+        cmocka_unit_test(filter_best__what_a_near_wall_hides__is_not_seen),
+        BEST_TOO(filter__homogeneous_scale_of_the_endpoint__does_not_matter),
+        BEST_TOO(filter__constant_radiance__stays_constant_with_every_option),
+        BEST_TOO(filter__mirrored_gbuffer__gives_the_mirrored_picture),
+        BEST_TOO(filter__instruction_sets_and_threads__give_the_same_bits),
+        BEST_TOO(filter__unusable_pixels__do_not_spread),
+        BEST_TOO(filter__mirror__is_the_specular_plane),
+        BEST_TOO(filter__exponent_zero_or_nan_in_the_passes__is_not_glossy),
+        BEST_TOO(filter__exponent_of_the_options__applies),
+        BEST_TOO(filter__one_pixel_and_hdr_values__are_kept),
+        BEST_TOO(filter__wrong_planes__are_refused),
+        BEST_TOO(filter__edge_pixels__take_the_nearest_ring),
         cmocka_unit_test(filter__constant_radiance__stays_constant_with_every_option),
         cmocka_unit_test(filter__weights_of_one__sum_to_the_number_of_taps),
         cmocka_unit_test(filter__mirrored_gbuffer__gives_the_mirrored_picture),

@@ -83,10 +83,27 @@ static void lobe_phong__from_roughness_and_back__agrees(void **state)
         assert_near(lobe_roughness_from_phong(lobe_phong_from_roughness(r)), r, 1e-12);
 }
 
+static void lobe_integral__midpoint_rule__is_the_same(void **state)
+{
+    (void)state;
+    static const double exponents[] = {0, 0.5, 10, 3000}, floors[] = {0, 0.001, 0.3};
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 3; j++) {
+            const int steps = 400000;
+            double sum = 0;
+            for (int k = 0; k < steps; k++) {
+                double angle = (k + 0.5) / steps * pi / 2;
+                sum += fmax(pow(cos(angle), exponents[i]) - floors[j], 0) * 2 * pi * sin(angle) * pi / 2 / steps;
+            }
+            assert_near(lobe_integral(exponents[i], floors[j]), sum, 1e-6 * sum);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lobe_weight__hand_worked__matches),
+        cmocka_unit_test(lobe_integral__midpoint_rule__is_the_same),
         cmocka_unit_test(lobe_half_angle__integral_over_the_hemisphere__holds_the_energy),
         cmocka_unit_test(lobe_half_angle__limits__are_exact),
         cmocka_unit_test(lobe_alpha__hand_worked__matches),
