@@ -486,7 +486,7 @@ static enum result add_photon_macro(enum pass_id id, struct buffer *text, struct
 
 bool pass_is_verbatim(const struct scene *scene, enum pass_id id)
 {
-    return id == PASS_OWN && !scene->photons;
+    return id == PASS_OWN && !(scene->photons && scene->glossy);
 }
 
 enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text, struct error *err)

@@ -107,7 +107,7 @@ for kind in memory read write close rename open thread space; do
         each_fails "$kind" output/picture.png "$bin/glossfilter" passes.exr --threads 2 -o output/picture.png
 done
 check "glossfilter_exr__memory_fails__message_and_nothing_left" \
-    each_fails memory output/picture.exr "$bin/glossfilter" passes.exr --layers --weights table -o output/picture.exr
+    each_fails memory output/picture.exr "$bin/glossfilter" passes.exr --layers --mode paper --weights table -o output/picture.exr
 for kind in memory read close open write; do
     check "list__${kind}_fails__message_and_nothing_left" each_fails "$kind" "" "$bin/povgloss" list scene.pov "$library"
 done

@@ -2,7 +2,8 @@
  *
  * Compares the positions and endpoints of a passes file with what POV-Ray's own fog says of their distances. The two passes
  * files are of one scene that ends in `fog { distance DISTANCE rgb 1 }` and rgb 0: along a way d the white fog is brighter
- * by 1 - exp(-d/DISTANCE). In the base d is the way from the eye to a, in the specular pass the way on to b as well.
+ * by 1 - exp(-d/DISTANCE). In the base d is the way from the eye to a; of the specular pass, which leaves that to the base, the
+ * way on to b, seen through the fog before a.
  * Differences are given as shares of the fog's brightness. Ends with 1 when more than 5 in 1000 of them (edges) are beyond
  * the tolerance, or no pixel is glossy.
  */
@@ -53,7 +54,7 @@ int main(int argc, char **argv)
             }
             double to_a = exp(-length(a) / distance), to_b = w > 0 ? to_a * exp(-length(b) / w / distance) : 0;
             double errors[2] = {fabs(1 - to_a - fog(&white.base, &black.base, gamma, x, y)),
-                                fabs(1 - to_b - fog(&white.specular, &black.specular, gamma, x, y))};
+                                fabs(to_a - to_b - fog(&white.specular, &black.specular, gamma, x, y))};
             for (int i = 0; i < 2; i++) {
                 beyond[i] += !(errors[i] <= tolerance);
                 most[i] = fmax(most[i], errors[i]);
