@@ -311,8 +311,10 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                "#end\n"
                                "#macro povgloss_of_default() #ifdef (povgloss_plain) povgloss_plain #end #end\n",
                                part->finish_end);
+    /* POV-Ray gives a name that is first declared within its own first declaration the inner value. */
     if (!result && part->placed)
         result = buffer_printf(text, err,
+                               "#declare povgloss_object = povgloss_nothing()\n"
                                "#declare povgloss_depth = 0;\n"
                                "#declare povgloss_default_counts = <0, 0, 0>;\n"
                                "#macro povgloss_counted_default()\n"

@@ -139,5 +139,14 @@ union {
 #macro Put(Thing) object { Thing translate x*1.5 } #end
 Put(sphere { <0, 0.4, -2>, 0.3 pigment { rgb y } finish { reflection 0.5 } })
 POV
+scene "objects by macros that call macros" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.5 } }
+#macro Rod(L) union { cylinder { 0, y*L, 0.1 pigment { rgb x } } cone { y*L, 0.2, y*(L + 0.3), 0 pigment { rgb y } } } #end
+#macro Rods(A, B)
+  union { object { Rod(A) } sphere { <-0.5, 0.3, 0>, 0.2 pigment { rgb z } } object { Rod(B) rotate x*70 } }
+#end
+object { Rods(1, 2) scale 0.8 }
+sphere { <1, 0.9, -1>, 0.5 pigment { rgbt <0.9, 0.5, 0.5, 0.9> } finish { reflection 0.2 } }
+POV
 gloss=()
 end_of_scenes
