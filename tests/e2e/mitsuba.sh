@@ -29,6 +29,6 @@ matches() {
     cat compared
     awk -v limit="$2" '{ exit !($4 < 0.01 && $6 < 0.06 && $10 < limit) }' compared
 }
-check "glossfilter__mitsuba_alpha_0.1__its_own_within_the_limit" matches 0.1 0.16
-check "glossfilter__mitsuba_alpha_0.2__its_own_within_the_limit" matches 0.2 0.16
+check "glossfilter__mitsuba_alpha_0.05__its_own_within_the_limit" matches 0.05 0.06
+check "glossfilter__mitsuba_alpha_0.1__its_own_within_the_limit" matches 0.1 0.1
 end_of_tests
