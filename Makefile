@@ -165,9 +165,7 @@ build/scenes/%.png: povscenes/%.pov $(PROGRAMS) $(PRELOAD)
 
 -include $(SCENES:.png=.d)
 
-# The passes are rendered once; each figure filters them with another roughness, by the paper's own filter; its Theta is below
-# 10 degrees.
-FIGURE_FILTER := --mode paper --max-angle 10
+# The passes are rendered once; each figure filters them with another roughness.
 FIGURES := build/figures/figure2.png build/figures/figure3.png build/figures/figure4.png
 .PHONY: figures
 figures: build/figures/figures.png ## the paper's Figures 2 to 4: one scene at roughness 0 %, 10 % and 50 %
@@ -181,7 +179,7 @@ build/figures/figure2.png: ROUGHNESS := 0
 build/figures/figure3.png: ROUGHNESS := 0.1
 build/figures/figure4.png: ROUGHNESS := 0.5
 $(FIGURES): build/figures/passes.exr
-	$(BUILD)/bin/glossfilter $< --roughness $(ROUGHNESS) $(FIGURE_FILTER) -o $@
+	$(BUILD)/bin/glossfilter $< --roughness $(ROUGHNESS) -o $@
 
 build/figures/figures.png: $(FIGURES)
 	oiiotool $^ --mosaic:pad=8 3x1 -o $@
