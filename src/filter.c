@@ -495,7 +495,8 @@ struct help {
 };
 
 /* A lobe that is narrow for the mirror's curvature holds few pixels, and chance errs more there than what should be
- * hidden: share = (pool_pixels / pixels in the lobe)^2, less a little. And half of what no seen pixel covers is taken from the others. */
+ * hidden: share = (pool_pixels / pixels in the lobe)^2, less a little. And half of what no seen pixel covers is taken
+ * from the others. */
 static struct help help_needed(const struct filter *filter, const struct filter_lanes *lanes, int l, double seen)
 {
     double phong = exponent_at(filter, lanes->x + l, lanes->y), distance = (double)lanes->distance[l];

@@ -97,8 +97,8 @@ filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;
  *
  * All that the camera sees in the mirror along a straight line of pixels from the lane's own lies in one plane, and is in
  * front of what follows on the line. A tap is hidden from a when a tap before it on the line was at an angle theta
- * larger by some tolerance: then the line from a to its b passes behind that one. The taps that are seen are thus one patch around the
- * lane's own pixel, which grows until all of its rim is out of reach. On the way to a tap lie both neighbours between
+ * larger by some tolerance: then the line from a to its b passes behind that one. The taps that are seen are thus one
+ * patch around the lane's own pixel, which grows until all of its rim is out of reach. On the way to a tap lie both neighbours between
  * which the straight line comes in, and the one with less in the way counts.
  *
  * scratch: FILTER_SEE_COLUMNS(width) * 3 * FILTER_LANES floats, aligned to 64 bytes, with any content. */

@@ -272,7 +272,8 @@ static bool is_base(const struct pass *pass)
 }
 
 /* What a copy with marked finishes refers to besides. */
-static enum result add_finish_macros(const struct pass *pass, const struct scene_part *part, struct buffer *text, struct error *err)
+static enum result add_finish_macros(const struct pass *pass, const struct scene_part *part, struct buffer *text,
+                                     struct error *err)
 {
     enum result result = buffer_add_text(
         text,

@@ -425,8 +425,8 @@ static bool in_texture(const struct scene_file *file, int token)
 static enum result add_cover(struct writer *writer, int token, int last, struct error *err)
 {
     static const char *const uv[] = {"uv_mapping", NULL};
-    return buffer_printf(&writer->out, err, "; povgloss_cover_of_%s(%d) ", in_texture(writer->file, token) ? "texture" : "object",
-                         mentions(writer->file, token + 2, last, uv));
+    return buffer_printf(&writer->out, err, "; povgloss_cover_of_%s(%d) ",
+                         in_texture(writer->file, token) ? "texture" : "object", mentions(writer->file, token + 2, last, uv));
 }
 
 /* A pigment that may be transparent is declared first, so that POV-Ray can say where it is. */
@@ -473,12 +473,13 @@ static enum result begin_finish(struct writer *writer, int token, struct error *
     int brace = file->list.tokens[token].parent, surface = surface_before(writer, token);
     bool of_texture = brace > 0 && is_word(file, brace - 1, "texture");
     bool own = surface >= 0 && is_word(file, surface, "pigment") && covered_sibling(writer, token) >= 0;
-    enum result result = insert_after(writer, token + 1,
-                                      of_texture                                          ? " povgloss_begin(povgloss_texture) "
-                                      : own                                               ? " povgloss_begin(povgloss_own) "
-                                      : surface >= 0 && !is_word(file, surface, "pigment") ? " povgloss_begin(povgloss_last) "
-                                                                                          : " povgloss_begin(povgloss_default_state) ",
-                                      err);
+    const char *state = of_texture                                            ? "povgloss_texture"
+                        : own                                                 ? "povgloss_own"
+                        : surface >= 0 && !is_word(file, surface, "pigment") ? "povgloss_last"
+                                                                              : "povgloss_default_state";
+    enum result result = insert_after(writer, token + 1, "", err);
+    if (!result)
+        result = buffer_printf(&writer->out, err, " povgloss_begin(%s) ", state);
     bool value = is_mark(file, token - 1, "=");
     if (!result && value && !has_fact(file, token + 2, NAME_DECLARED) &&
         !has_fact(file, token + 2, NAME_PARAMETER))
