@@ -107,7 +107,7 @@ static enum result clear_haze(const struct pass_images *images, struct image *sp
             float *row = image_row(specular, channel, y);
             for (int x = 0; x < specular->width; x++) {
                 double rest = gamma_encode(gamma, (double)row[x]) - gamma_encode(gamma, (double)before[x]);
-                row[x] = (float)gamma_decode(gamma, fmax(rest, 0));
+                row[x] = (float)gamma_decode(gamma, rest);
             }
         }
     image_free(&haze);

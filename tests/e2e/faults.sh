@@ -4,8 +4,11 @@
 . tests/e2e/lib.sh
 tools=$(realpath "${TOOLS:-build/tests/tools}")
 faults=${FAULTS:-10}
-# A sanitizer's own calls come after those of what is preloaded.
-export ASAN_OPTIONS=verify_asan_link_order=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}
+if ldd "$bin/povgloss" | grep -qE 'lib[at]san'; then
+    echo 'ok 1 - faults # SKIP a sanitizer stands before the calls that are to fail'
+    echo 1..1
+    exit
+fi
 
 cd "$scratch" || exit 1
 mkdir fake output
