@@ -88,7 +88,7 @@ static void mark_used(const struct scene *scene, const struct words *words, bool
 static const struct scene_file *find_finish(const struct scene *scene, const struct scene_file *from, int name,
                                             int *brace)
 {
-    const struct scene_name *word = name_at(from, name);
+    const struct scene_name *word = has_fact(from, name, NAME_GLOSSABLE) ? name_at(from, name) : NULL;
     for (int i = 0; word && i < scene->file_count; i++) {
         const struct scene_file *file = &scene->files[i];
         for (int token = 0; token < file->list.count - 4; token++) {
