@@ -6,6 +6,7 @@
 
 #include "compose.h"
 #include "input_file.h"
+#include "own_files.h"
 #include "pass_images.h"
 #include "picture_check.h"
 #include "reads.h"
@@ -129,8 +130,21 @@ static enum result add_directory(struct passes *passes, const char *path, struct
     return result;
 }
 
-/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; the scene's own folder comes last. They
- * are reached through links, since POV-Ray's command line can't take every path. */
+/* The folder of povgloss.inc, for a scene that has no copy of it. */
+static enum result add_own_directory(struct passes *passes, struct error *err)
+{
+    char *folder;
+    struct error ignored;
+    enum result result = RESULT_OK;
+    if (!own_file("share/povgloss/include", &folder, &ignored)) {
+        result = add_directory(passes, folder, err);
+        free(folder);
+    }
+    return result;
+}
+
+/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; then come the scene's own folder and ours.
+ * They are reached through links, since POV-Ray's command line can't take every path. */
 static enum result find_directories(struct passes *passes, struct error *err)
 {
     const struct passes_options *options = passes->options;
@@ -146,7 +160,7 @@ static enum result find_directories(struct passes *passes, struct error *err)
     if (!result)
         result = add_directory(passes, slash ? scene_folder : ".", err);
     free(scene_folder);
-    return result;
+    return result ? result : add_own_directory(passes, err);
 }
 
 static enum result link_directories(const struct passes *passes, struct error *err)
