@@ -278,6 +278,7 @@ const char cli_filter_help[] =
     "  --bits N             of a PNG: 8 (default) or 16\n"
     "  --layers             EXR: also the blurred reflection (glossy.*), and how much of the lobe the\n"
     "                       samples cover (confidence.V) or the paper's radius (radius.V)\n"
+    "  --timings            print a table of where the time went to standard error\n"
     "  -q, --quiet          no messages but errors\n";
 
 enum result cli_filter_option(int argc, char **argv, int *index, struct cli_filter *options, bool *taken,
@@ -287,6 +288,11 @@ enum result cli_filter_option(int argc, char **argv, int *index, struct cli_filt
     *taken = true;
     if (is(argument, "--layers")) {
         options->layers = true;
+        *index += 1;
+        return RESULT_OK;
+    }
+    if (is(argument, "--timings")) {
+        options->show_timings = true;
         *index += 1;
         return RESULT_OK;
     }
@@ -347,13 +353,17 @@ enum result cli_write(const char *path, const struct cli_filter *options, const 
                       struct image *glossy, struct image *measure, struct error *err)
 {
     struct image image = {0};
+    struct timings_moment start = timings_now();
     enum result result = compose(gbuffer, glossy, &image, err);
     struct image *const images[] = {&image, glossy, measure};
     for (int i = 0; i < 3 && result == RESULT_OK && gbuffer->window.width > 0; i++)
         if (images[i])
             result = image_crop(images[i], &gbuffer->window, err);
+    timings_add(options->timings, "compose", start);
+    start = timings_now();
     if (result == RESULT_OK)
         result = write_picture(path, options, &image, glossy, measure, err);
+    timings_add(options->timings, "write", start);
     image_free(&image);
     return result;
 }
@@ -362,7 +372,9 @@ enum result cli_draw(const char *path, const struct cli_filter *options, const s
                      struct error *err)
 {
     struct image glossy = {0}, measure = {0};
+    struct timings_moment start = timings_now();
     enum result result = filter_glossy(gbuffer, &options->filter, &glossy, &measure, err);
+    timings_add(options->timings, "filter", start);
     if (result == RESULT_OK)
         result = cli_write(path, options, gbuffer, &glossy, &measure, err);
     image_free(&glossy);

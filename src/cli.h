@@ -8,6 +8,7 @@
 #include "filter.h"
 #include "image_file.h"
 #include "mem.h"
+#include "timings.h"
 
 #include <stdbool.h>
 
@@ -17,7 +18,8 @@ struct cli_filter {
     const char *format; /* "exr" or "png"; NULL: by the output's extension */
     int bits;           /* of a PNG: 8 or 16 */
     bool layers;        /* further channels in an EXR: the blurred reflection, the confidence or the radius */
-    bool quiet;
+    bool quiet, show_timings;
+    struct timings *timings; /* gets a row for each step; NULL: none */
 };
 
 struct cli_filter cli_filter_default(void);

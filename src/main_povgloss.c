@@ -226,10 +226,11 @@ static enum result take_argument(int argc, char **argv, int *index, struct comma
         return result;
     result = cli_filter_option(argc, argv, index, &command->filter, &taken, err);
     if (result || taken) {
-        command->filter_options_used |= strcmp(argument, "--quiet") && strcmp(argument, "-q");
-        command->lobe_options_used |= strcmp(argument, "--quiet") && strcmp(argument, "-q") &&
-                                      strcmp(argument, "--layers") && strncmp(argument, "--format", 8) &&
-                                      strncmp(argument, "--bits", 6);
+        bool says = !strcmp(argument, "--quiet") || !strcmp(argument, "-q") || !strcmp(argument, "--timings");
+        bool writes = !strcmp(argument, "--layers") || !strncmp(argument, "--format", 8) ||
+                      !strncmp(argument, "--bits", 6);
+        command->filter_options_used |= !says;
+        command->lobe_options_used |= !says && !writes;
         return result;
     }
     ++*index;
@@ -520,10 +521,13 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
         close_passes(passes);
 
     /* 3. the passes file, or the picture by the filter */
-    if (!result && command->kind == KIND_PASSES)
+    if (!result && command->kind == KIND_PASSES) {
+        struct timings_moment start = timings_now();
         result = passes_file_write(path, &gbuffer, err);
-    else if (!result)
+        timings_add(command->filter.timings, "write", start);
+    } else if (!result) {
         result = cli_draw(path, &command->filter, &gbuffer, err);
+    }
     gbuffer_free(&gbuffer);
     return result;
 }
@@ -668,9 +672,11 @@ int main(int argc, char **argv)
 {
     struct command command = {0};
     struct povray_switches switches = {0};
+    struct timings timings = timings_begin();
     struct error err;
     interrupt_install();
     enum result result = parse(argc, argv, &command, &switches, &err);
+    command.passes.timings = command.filter.timings = &timings;
     if (!result && command.help)
         printf("%s%s%s", help, cli_filter_help, help_end);
     else if (!result && command.version)
@@ -685,6 +691,8 @@ int main(int argc, char **argv)
         result = compare(&command, &err);
     else if (!result)
         result = run(&command, &err);
+    if (!result && command.filter.show_timings)
+        timings_print(&timings, stderr);
     if (!result && (command.help || command.version || command.print_include_dir) && (fflush(stdout) || ferror(stdout)))
         result = error_set(&err, RESULT_DATA, "standard output: cannot be written");
     free(command.path);
