@@ -12,6 +12,9 @@ scene_rewrite scene_list
 pass_scene pass_images reads probe_file
 passes
 cli
+command
+draw
+measure
 main_glossfilter main_povgloss'
 
 row_of() {
