@@ -122,7 +122,7 @@ $(BUILD)/tests/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(LIBRARY) $(FLAGS_STAMP)
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -DFUZZ_MUTATOR -fsanitize=fuzzer -o $@ $< $(LIBRARY) $(LDLIBS)
 
-$(FUZZ_REPLAYS) $(FUZZERS): tests/fuzz/fuzz_support.h $(wildcard src/*.h) src/main_povgloss.c
+$(FUZZ_REPLAYS) $(FUZZERS): tests/fuzz/fuzz_support.h $(wildcard src/*.h)
 
 # What follows `deps` on the command line needs what it installs.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)

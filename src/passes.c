@@ -407,6 +407,14 @@ static void no_progress(void *context, double done)
     (void)done;
 }
 
+static void add_timings(const struct passes *passes, const struct povray_job *jobs, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (jobs[i].finished)
+            timings_add_povray(passes->options->timings, jobs[i].name, jobs[i].start_s, jobs[i].wall_s,
+                               jobs[i].child.cpu_s);
+}
+
 /* POV-Ray parses the scene and is stopped by the wrapper before it draws: that is a success if the log has its last
  * line. */
 static enum result run_discovery(struct passes *passes, const char *name, const char *folder, struct error *err)
@@ -428,6 +436,7 @@ static enum result run_discovery(struct passes *passes, const char *name, const 
         result = RESULT_OK;
     else if (failed >= 0)
         result = report_failure(passes, &job, err);
+    add_timings(passes, &job, 1);
     input_file_free(&log);
     povray_jobs_free(&job, 1);
     text_list_free(&arguments);
@@ -526,6 +535,7 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
         result = report_failure(passes, &passes->jobs[failed], err);
     if (!result && !povray_is_other_version(&passes->jobs[0].messages, passes->version))
         passes->version[0] = 0;
+    add_timings(passes, passes->jobs, passes->job_count);
     povray_jobs_free(passes->jobs, passes->job_count);
     for (int i = 0; i < passes->job_count; i++) {
         text_list_free(&arguments[i]);
@@ -566,6 +576,7 @@ static enum result run_view(const struct passes *passes, int frame, int width, i
         result = povray_run(&job, 1, 1, passes->environment, no_progress, NULL, &failed, err);
     if (failed >= 0)
         result = report_failure(passes, &job, err);
+    add_timings(passes, &job, 1);
     povray_jobs_free(&job, 1);
     text_list_free(&arguments);
     free(folder);
@@ -650,6 +661,7 @@ static enum result remove_images(const struct passes *passes, const struct pass_
 /* Reads the scene and writes those of the passes. */
 static enum result prepare(struct passes *passes, int frame, struct error *note, struct error *err)
 {
+    struct timings_moment start = timings_now();
     passes->frame = frame;
     note->text[0] = 0;
     enum result result = load_scene(passes, err);
@@ -657,7 +669,10 @@ static enum result prepare(struct passes *passes, int frame, struct error *note,
         result = discover(passes, err);
     if (!result)
         result = check_scene(passes, note, err);
-    return result ? result : write_scenes(passes, err);
+    if (!result)
+        result = write_scenes(passes, err);
+    timings_add(passes->options->timings, "scene", start);
+    return result;
 }
 
 /* What POV-Ray computes may be something else in another frame. */
@@ -712,12 +727,16 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     *gbuffer = (struct gbuffer){0};
     note->text[0] = 0;
     enum result result = prepare_frame(passes, frame, err);
+    struct timings_moment start = timings_now();
     if (!result)
         result = run_passes(passes, frame, err);
+    timings_add(options->timings, "passes", start);
     if (!result && options->reads)
         result = collect_reads(passes, err);
+    start = timings_now();
     if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
+    timings_add(options->timings, "decode", start);
     if (!result)
         note_version(passes, note);
     if (!result)
@@ -758,6 +777,7 @@ enum result passes_check_sum(const struct passes *passes, int frame, const struc
         return RESULT_OK;
     frames_number(&options->frames, frame, number);
     const struct pass_images images = images_of(passes, number);
+    struct timings_moment start = timings_now();
     enum result result = pass_images_radiance(&images, PASS_OWN, &own, err);
     if (!result)
         result = compose(gbuffer, &gbuffer->specular, &sum, err);
@@ -767,6 +787,7 @@ enum result passes_check_sum(const struct passes *passes, int frame, const struc
         note_difference(passes, &difference, note);
     if (!result)
         result = remove_image(passes, &images, PASS_OWN, err);
+    timings_add(options->timings, "check", start);
     image_free(&sum);
     image_free(&own);
     return result;

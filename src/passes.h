@@ -19,6 +19,7 @@
 #include "povray.h"
 #include "povray_switches.h"
 #include "scene.h"
+#include "timings.h"
 
 struct passes_options {
     const char *scene;  /* path of the .pov file */
@@ -36,6 +37,7 @@ struct passes_options {
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;
+    struct timings *timings; /* gets a row for each step; NULL: none */
 };
 
 struct passes;
