@@ -543,7 +543,8 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
         return false;
     if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
         return false;
-    if (id == PASS_HAZE && !scene->atmosphere)
+    /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye, too. */
+    if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line)
         return false;
     return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }

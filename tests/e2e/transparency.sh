@@ -90,6 +90,14 @@ sphere { 0, 30 hollow pigment { rgb 0.5 } }
 object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
 object { Ball pigment { rgb <0.5, 0.2, 0.1> } finish { reflection 0.5 Gloss(50) } }
 POV
+scene "the camera in an object with media" << 'POV'
+sphere {
+  0, 20 hollow pigment { rgbt 1 }
+  interior { media { absorption <0.1, 0.06, 0.03> emission <0.02, 0.03, 0.05> method 3 intervals 1 samples 30 jitter 0 } }
+}
+object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
+object { Ball pigment { rgb <0.5, 0.2, 0.1> } finish { reflection 0.5 Gloss(50) } }
+POV
 
 # Light under surfaces is random: only its average tells it from what is missing without it.
 cat > "$folder/under.pov" << 'POV'
