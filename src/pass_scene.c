@@ -399,9 +399,11 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
         free(name);
         return result;
     }
+    /* Objects of a union that have no interior of their own share one, which is as hollow as the last of them: where it is,
+     * the haze fills their hollow ones. */
     if (!result)
-        result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n", part->modifiers,
-                               scene->atmosphere ? " hollow" : "");
+        result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n",
+                               scene->atmosphere ? "povgloss_nothing() " : "", part->modifiers);
     if (!result && part->coded)
         result = add_coding_texture(pass, text, err);
     if (!result)
@@ -505,7 +507,7 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
         result = buffer_add_text(text, "global_settings { assumed_gamma 1.0 }\n", err);
     if (!result)
         result = buffer_add_text(
-            text, "#macro povgloss_nothing() sphere { 0, 1e-6 no_image no_reflection no_shadow no_radiosity } #end\n", err);
+            text, "#macro povgloss_nothing() sphere { 0, 1e-6 hollow no_image no_reflection no_shadow no_radiosity } #end\n", err);
     if (!result)
         result = buffer_add_text(text, "#declare povgloss_default = texture { pigment { rgb 0 } };\n", err);
     /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
@@ -541,7 +543,8 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
         return false;
     if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
         return false;
-    if (id == PASS_HAZE && !scene->atmosphere)
+    /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye, too. */
+    if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line)
         return false;
     return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }

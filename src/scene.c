@@ -193,7 +193,8 @@ static const struct limit {
     [SCENE_LIMIT_SUBSURFACE] = {"subsurface", "global_settings",
                                 "with subsurface light, glossy surfaces that are seen in a mirror reflect nothing there"},
     [SCENE_LIMIT_MEDIA] = {"media", "interior",
-                           "media in an object neither dim nor tint the reflection of a glossy surface in or behind it"},
+                           "media in an object that the camera is outside of neither dim nor tint the reflection of a glossy "
+                           "surface in or behind it"},
 };
 
 const char *scene_limit_text(enum scene_limit limit)

@@ -45,7 +45,8 @@ check "subsurface light and a plain mirror" says \
     '3: with subsurface light, glossy surfaces that are seen in a mirror reflect nothing there' "$lit" '' "$glossy" \
     'sphere { y, 1 pigment { rgb 1 } finish { reflection 0.2 } }'
 check "media in an object" says \
-    '7: media in an object neither dim nor tint the reflection of a glossy surface in or behind it' '' '' "$glossy" \
+    "7: media in an object that the camera is outside of neither dim nor tint the reflection of a glossy surface in or \
+behind it" '' '' "$glossy" \
     'sphere { y, 1 hollow pigment { rgbt 1 } interior { media { emission 0.1 } } }'
 glass='pigment { rgbt 0.9 } finish { reflection 0.1 }'
 check "glass and gloss in one object" says "7: this object holds something transparent and something glossy: \
