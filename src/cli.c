@@ -376,6 +376,34 @@ enum result cli_write(const char *path, const struct cli_filter *options, const 
     return result;
 }
 
+static bool is_finite(const struct image *image, int x, int y)
+{
+    bool finite = true;
+    for (int i = 0; i < 3 && image->pixels; i++)
+        finite = finite && isfinite(image_row(image, i, y)[x]);
+    return finite;
+}
+
+void cli_warn_of_pixels(const char *program, const char *name, const struct cli_filter *options,
+                        const struct gbuffer *gbuffer)
+{
+    if (options->quiet)
+        return;
+    long left_out = filter_left_out(gbuffer), spoilt = 0;
+    for (int y = 0; y < gbuffer->specular.height; y++)
+        for (int x = 0; x < gbuffer->specular.width; x++)
+            spoilt += !is_finite(&gbuffer->base, x, y) || !is_finite(&gbuffer->reflectance, x, y);
+    if (left_out > 0)
+        fprintf(stderr,
+                "%s: warning: %s: %ld glossy pixel%s left out, without a reflection: exponent, position, endpoint or "
+                "specular radiance isn't finite there, or W or the exponent is below 0 (glossfilter --check counts each)\n",
+                program, name, left_out, left_out > 1 ? "s are" : " is");
+    if (spoilt > 0)
+        fprintf(stderr,
+                "%s: warning: %s: base or reflectance isn't finite at %ld pixel%s, and so the picture may not be\n",
+                program, name, spoilt, spoilt > 1 ? "s" : "");
+}
+
 enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                      struct error *err)
 {

@@ -117,6 +117,8 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
         draw_close_passes(passes);
 
     /* 3. the passes file, or the picture by the filter */
+    if (!result)
+        cli_warn_of_pixels("povgloss", command->path, &command->filter, &gbuffer);
     if (!result && command->kind == KIND_PASSES) {
         struct timings_moment start = timings_now();
         result = passes_file_write(path, &gbuffer, err);

@@ -27,6 +27,9 @@ static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
 static const double pi = 3.14159265358979324;
 
+/* In units of the taps, whose farthest position is at 2^20: 1e-15 of that. */
+static const double least_distance = 1e-9;
+
 /* How many times larger tan^2(theta) is of what hides an endpoint: 10 % of the angle are left to the digits of the
  * positions and to bumps. */
 static const float hidden_ratio = 1.21f;
@@ -97,6 +100,24 @@ static bool sample_read(const struct filter *filter, int x, int y, struct sample
         sample->b[i] /= w > 0 ? w : length;
     sample->b[3] = w > 0;
     return true;
+}
+
+long filter_left_out(const struct gbuffer *gbuffer)
+{
+    const struct filter_options options = {0};
+    const struct filter filter = {.gbuffer = gbuffer, .options = &options};
+    long count = 0;
+    for (int y = 0; y < gbuffer->specular.height; y++)
+        for (int x = 0; x < gbuffer->specular.width; x++) {
+            struct sample sample;
+            bool meant = false;
+            for (int i = 0; i < 4; i++)
+                meant = meant || image_row(&gbuffer->endpoint, i, y)[x] != 0; /* also NaN */
+            if (gbuffer->phong.pixels)
+                meant = meant && image_row(&gbuffer->phong, 0, y)[x] != 0;
+            count += meant && !sample_read(&filter, x, y, &sample);
+        }
+    return count;
 }
 
 static void scales_find(struct filter *filter)
@@ -386,7 +407,7 @@ static bool lane_fill(const struct filter *filter, int x, int y, int l, struct f
     position_at(filter, x, y, a);
     double distance = direction_to(filter, a, x, y, direction);
     bool one_tap = filter->options->mode == FILTER_MODE_PAPER && image_row(&filter->radius, 0, y)[x] < 1;
-    if (phong >= mirror_phong || distance == 0 || one_tap)
+    if (phong >= mirror_phong || distance < least_distance || one_tap)
         return false;
     for (int i = 0; i < 3; i++) {
         lanes->a[i][l] = a[i];

@@ -71,6 +71,8 @@ static enum result run(const struct cli_glossfilter *command, struct error *err)
     enum result result = passes_file_read_mapped(command->input, &command->map, &gbuffer, NULL, err);
     timings_add(command->options.timings, "read", start);
     if (result == RESULT_OK)
+        cli_warn_of_pixels(program, input_file_name(command->input), &command->options, &gbuffer);
+    if (result == RESULT_OK)
         result = cli_draw(command->output, &command->options, &gbuffer, err);
     gbuffer_free(&gbuffer);
     return result;

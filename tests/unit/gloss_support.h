@@ -3,6 +3,7 @@
 #define POVGLOSS_GLOSS_SUPPORT_H
 
 #include "filter.h"
+#include "lobe.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,6 +33,20 @@ UNUSED static void assert_near_at(double a, double b, double tolerance, const ch
         if ((result) != RESULT_OK)                                                                                     \
             fail_msg("%s", (err).text);                                                                                \
     } while (0)
+
+UNUSED static void filter_run(const struct gbuffer *gbuffer, const struct filter_options *options, struct image *glossy,
+                              struct image *measure)
+{
+    struct error err;
+    assert_ok(filter_glossy(gbuffer, options, glossy, measure, &err), err);
+}
+
+UNUSED static bool image_same(const struct image *a, const struct image *b)
+{
+    size_t count = a->stride * (size_t)a->height * (size_t)a->channels;
+    return a->width == b->width && a->height == b->height && a->channels == b->channels &&
+           memcmp(a->pixels, b->pixels, count * sizeof *a->pixels) == 0;
+}
 
 /* A glossy floor y = 0 (and, optionally, a glossy ball on it) seen by a pinhole camera under a sky, with two spheres
  * and a checkered wall. Lengths times `scale`; `bounded` closes the scene, so that no mirrored ray misses; a view
@@ -105,6 +120,27 @@ UNUSED static void gbuffer_alloc(struct gbuffer *gbuffer, int width, int height)
     assert_ok(image_alloc(&gbuffer->position, width, height, 3, &err), err);
     assert_ok(image_alloc(&gbuffer->endpoint, width, height, 4, &err), err);
     assert_ok(image_alloc(&gbuffer->phong, width, height, 1, &err), err);
+}
+
+/* A view angle for scene_draw at which a lobe is some tens of pixels wide, however narrow it is. */
+UNUSED static double scene_view_angle(double phong)
+{
+    return fmin(1.1, 6 * lobe_half_angle(phong, 0.99, 1.5));
+}
+
+/* Pixels of a floor that all see the same direction: every weight is 1. */
+UNUSED static void flat_gbuffer(struct gbuffer *gbuffer, int width, int height, float phong)
+{
+    gbuffer_alloc(gbuffer, width, height);
+    gbuffer->has_eye = true;
+    gbuffer->view_angle = 1;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            image_row(&gbuffer->position, 0, y)[x] = (float)x;
+            image_row(&gbuffer->position, 2, y)[x] = (float)y;
+            image_row(&gbuffer->endpoint, 1, y)[x] = 1;
+            image_row(&gbuffer->phong, 0, y)[x] = phong;
+        }
 }
 
 UNUSED static void scene_draw(const struct scene *scene, int width, int height, float phong, struct gbuffer *gbuffer)
