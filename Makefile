@@ -122,7 +122,7 @@ $(BUILD)/tests/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(LIBRARY) $(FLAGS_STAMP)
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -DFUZZ_MUTATOR -fsanitize=fuzzer -o $@ $< $(LIBRARY) $(LDLIBS)
 
-$(FUZZ_REPLAYS) $(FUZZERS): tests/fuzz/fuzz_support.h $(wildcard src/*.h) src/main_povgloss.c
+$(FUZZ_REPLAYS) $(FUZZERS): tests/fuzz/fuzz_support.h $(wildcard src/*.h)
 
 # What follows `deps` on the command line needs what it installs.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
@@ -130,7 +130,7 @@ ifneq ($(filter deps,$(MAKECMDGOALS)),)
 endif
 
 .PHONY: deps
-deps: ## install the Debian packages that building and testing need (apt-get, through sudo when not root)
+deps: ## install what building and testing need: Debian packages (apt-get, through sudo when not root) and Mitsuba
 	@missing=; for package in $(PACKAGES); do \
 	    dpkg-query -W -f '$${Status}\n' $$package 2>/dev/null | grep -q '^install ok installed$$' || \
 	        missing="$$missing $$package"; \
@@ -140,14 +140,16 @@ deps: ## install the Debian packages that building and testing need (apt-get, th
 	    $$sudo apt-get update -qq && \
 	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing; \
 	fi
+	@$(MAKE) --no-print-directory mitsuba || echo "Mitsuba can't be installed: its test will be skipped"
 
-# Its test is skipped where it isn't installed.
+# Only the test of scripts/mitsuba_passes.py needs it.
 .PHONY: mitsuba
-mitsuba: build/mitsuba/bin/python ## install Mitsuba 3 in build/mitsuba, for the test of scripts/mitsuba_passes.py
+mitsuba: build/mitsuba/bin/python ## install Mitsuba 3 in build/mitsuba
 
 build/mitsuba/bin/python:
 	python3 -m venv build/mitsuba
-	build/mitsuba/bin/pip install -q --disable-pip-version-check mitsuba numpy || { rm -rf build/mitsuba; exit 1; }
+	build/mitsuba/bin/pip install -q --disable-pip-version-check --timeout 20 --retries 2 mitsuba numpy || \
+	     { rm -rf build/mitsuba; exit 1; }
 
 .PHONY: demo
 demo: build/demo.png ## render the demo scene
@@ -242,16 +244,21 @@ install: all $(INSTALLED_lib/pkgconfig) ## install below PREFIX (/usr/local); DE
 	@echo "Installed below $(DESTDIR)$(PREFIX)"
 
 .PHONY: uninstall
-uninstall: ## remove what install put below PREFIX
+uninstall: ## remove what install put below PREFIX, and folders that this leaves empty
 	@rm -f $(foreach folder,$(INSTALL_FOLDERS), \
 	    $(patsubst %,"$(DESTDIR)$(PREFIX)/$(folder)/%",$(notdir $(INSTALLED_$(folder)))))
-	@for folder in lib/povgloss share/povgloss/include share/povgloss; do \
-	    [ ! -d "$(DESTDIR)$(PREFIX)/$$folder" ] || rmdir "$(DESTDIR)$(PREFIX)/$$folder"; \
+	@for folder in lib/povgloss lib/pkgconfig share/povgloss/include share/povgloss share/man/man1 share/man/man5 \
+	        share/bash-completion/completions share/bash-completion; do \
+	    [ ! -d "$(DESTDIR)$(PREFIX)/$$folder" ] || rmdir --ignore-fail-on-non-empty "$(DESTDIR)$(PREFIX)/$$folder"; \
 	done
 
 .PHONY: deb
 deb: $(PROGRAMS) ## a Debian package in build/
 	scripts/deb.sh $(VERSION) $(BUILD)
+
+.PHONY: fresh
+fresh: ## type README's commands on a fresh Debian 12, made by debootstrap (root, 15 minutes)
+	scripts/fresh_machine.sh
 
 .PHONY: clean
 clean: ## remove everything that make built

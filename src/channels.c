@@ -61,6 +61,12 @@ static const char *split(const char *name, size_t *layer_length)
     return dot ? dot + 1 : name;
 }
 
+/* Whether the first `length` characters of text are the name. */
+static bool is_name(const char *text, size_t length, const char *name)
+{
+    return strlen(name) == length && !memcmp(text, name, length);
+}
+
 /* The channel of the group that a component stands for, or -1. */
 static int component_index(const struct channel_group *group, const char *component)
 {
@@ -147,9 +153,9 @@ static enum result apply_map(const char *path, const struct exr_contents *conten
         size_t length = (size_t)(name - 1 - text);
         int there = exr_find(contents, name), wanted = -2;
         for (int j = 0; j < group->count; j++)
-            if (strlen(group->names[j]) == length && !strncmp(text, group->names[j], length))
+            if (is_name(text, length, group->names[j]))
                 wanted = j;
-        if (strlen(group->name) == length && !strncmp(text, group->name, length)) {
+        if (is_name(text, length, group->name)) {
             int layer[CHANNELS_MAX];
             int found = find_layer(contents, group, name, strlen(name), layer);
             if (group->count == 1 && there >= 0)
@@ -199,10 +205,10 @@ enum result channels_check_map(const char *text, struct error *err)
     size_t length = equals ? (size_t)(equals - text) : 0;
     for (int i = 0; i < CHANNEL_GROUPS && equals && equals[1]; i++) {
         const struct channel_group *group = &channel_groups[i];
-        if (strlen(group->name) == length && !strncmp(text, group->name, length))
+        if (is_name(text, length, group->name))
             return RESULT_OK;
         for (int j = 0; j < group->count; j++)
-            if (strlen(group->names[j]) == length && !strncmp(text, group->names[j], length))
+            if (is_name(text, length, group->names[j]))
                 return RESULT_OK;
     }
     return error_set(err, RESULT_USAGE,

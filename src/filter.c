@@ -68,16 +68,12 @@ struct filter_options filter_options_default(void)
     };
 }
 
-/* The pixel's exponent, or -1: not glossy. */
+/* The exponent of a glossy pixel. */
 static double exponent_at(const struct filter *filter, int x, int y)
 {
     const struct image *phong = &filter->gbuffer->phong;
-    if (!phong->pixels)
-        return (double)filter->options->phong;
-    float value = image_row(phong, 0, y)[x];
-    if (!(value > 0))
-        return -1;
-    return (double)(filter->options->phong_override ? filter->options->phong : value);
+    bool own = phong->pixels && !filter->options->phong_override;
+    return (double)(own ? image_row(phong, 0, y)[x] : filter->options->phong);
 }
 
 /* The pixel as a tap: a, b with W = 1 or a unit direction with W = 0, and L0. False: not glossy. */
@@ -88,7 +84,7 @@ struct sample {
 static bool sample_read(const struct filter *filter, int x, int y, struct sample *sample)
 {
     const struct gbuffer *gbuffer = filter->gbuffer;
-    if (exponent_at(filter, x, y) < 0)
+    if (!gbuffer_is_glossy(gbuffer, x, y))
         return false;
     double sum = 0;
     for (int i = 0; i < 3; i++) {
@@ -100,8 +96,6 @@ static bool sample_read(const struct filter *filter, int x, int y, struct sample
     if (!isfinite(sum + w) || w < 0)
         return false;
     double length = sqrt(sample->b[0] * sample->b[0] + sample->b[1] * sample->b[1] + sample->b[2] * sample->b[2]);
-    if (w == 0 && length == 0)
-        return false;
     for (int i = 0; i < 3; i++)
         sample->b[i] /= w > 0 ? w : length;
     sample->b[3] = w > 0;

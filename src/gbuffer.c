@@ -1,5 +1,15 @@
-/* A gbuffer is a bundle of images; here they are freed together. */
+/* A gbuffer is a bundle of images: what says that a pixel is glossy, and their end. */
 #include "gbuffer.h"
+
+bool gbuffer_is_glossy(const struct gbuffer *gbuffer, int x, int y)
+{
+    if (gbuffer->phong.pixels && !(image_row(&gbuffer->phong, 0, y)[x] > 0))
+        return false;
+    for (int i = 0; i < 4; i++)
+        if (image_row(&gbuffer->endpoint, i, y)[x] != 0)
+            return true;
+    return false;
+}
 
 void gbuffer_free(struct gbuffer *gbuffer)
 {

@@ -29,6 +29,10 @@ struct gbuffer {
 
 #define GBUFFER_GAMMA_SRGB (-1.0f)
 
+/* Whether something glossy is at the pixel: its exponent is above 0 (or there is no plane of them), its endpoint not all
+ * zero. */
+bool gbuffer_is_glossy(const struct gbuffer *gbuffer, int x, int y);
+
 /* Frees all planes and clears the rest. */
 void gbuffer_free(struct gbuffer *gbuffer);
 

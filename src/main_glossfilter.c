@@ -67,7 +67,9 @@ static enum result check(const struct cli_glossfilter *command, struct error *er
 static enum result run(const struct cli_glossfilter *command, struct error *err)
 {
     struct gbuffer gbuffer = {0};
+    struct timings_moment start = timings_now();
     enum result result = passes_file_read_mapped(command->input, &command->map, &gbuffer, NULL, err);
+    timings_add(command->options.timings, "read", start);
     if (result == RESULT_OK)
         cli_warn_of_pixels(program, input_file_name(command->input), &command->options, &gbuffer);
     if (result == RESULT_OK)
@@ -79,9 +81,11 @@ static enum result run(const struct cli_glossfilter *command, struct error *err)
 int main(int argc, char **argv)
 {
     struct cli_glossfilter command;
+    struct timings timings = timings_begin();
     struct error err;
     interrupt_install();
     enum result result = cli_glossfilter(argc, argv, &command, &err);
+    command.options.timings = &timings;
     if (result == RESULT_OK) {
         if (command.help)
             result = print(help, cli_filter_help, help_end, &err);
@@ -89,6 +93,8 @@ int main(int argc, char **argv)
             result = print(program, " ", POVGLOSS_VERSION "\n", &err);
         else
             result = command.check ? check(&command, &err) : run(&command, &err);
+        if (result == RESULT_OK && command.options.show_timings)
+            timings_print(&timings, stderr);
     }
     text_list_free(&command.map);
     if (result == RESULT_INTERRUPTED)

@@ -6,6 +6,7 @@
 
 #include "compose.h"
 #include "input_file.h"
+#include "own_files.h"
 #include "pass_images.h"
 #include "picture_check.h"
 #include "reads.h"
@@ -129,8 +130,21 @@ static enum result add_directory(struct passes *passes, const char *path, struct
     return result;
 }
 
-/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; the scene's own folder comes last. They
- * are reached through links, since POV-Ray's command line can't take every path. */
+/* The folder of povgloss.inc, for a scene that has no copy of it. */
+static enum result add_own_directory(struct passes *passes, struct error *err)
+{
+    char *folder;
+    struct error ignored;
+    enum result result = RESULT_OK;
+    if (!own_file("share/povgloss/include", &folder, &ignored)) {
+        result = add_directory(passes, folder, err);
+        free(folder);
+    }
+    return result;
+}
+
+/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; then come the scene's own folder and ours.
+ * They are reached through links, since POV-Ray's command line can't take every path. */
 static enum result find_directories(struct passes *passes, struct error *err)
 {
     const struct passes_options *options = passes->options;
@@ -146,7 +160,7 @@ static enum result find_directories(struct passes *passes, struct error *err)
     if (!result)
         result = add_directory(passes, slash ? scene_folder : ".", err);
     free(scene_folder);
-    return result;
+    return result ? result : add_own_directory(passes, err);
 }
 
 static enum result link_directories(const struct passes *passes, struct error *err)
@@ -257,26 +271,26 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
 {
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
-    const struct pass *pass = &pass_table[id];
+    const struct pass pass = pass_of(&passes->scene, id);
     static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
     enum result result = scene_arguments(passes, frame, arguments, err);
-    const char *const *format = pass->codes ? codes : radiance;
+    const char *const *format = pass.codes ? codes : radiance;
     for (int i = 0; !result && format[i]; i++)
         result = text_list_add(arguments, err, "%s", format[i]);
-    if (!result && (!pass->full_size || id == PASS_OWN))
+    if (!result && (!pass.full_size || id == PASS_OWN))
         result = text_list_add(arguments, err, "-A");
     if (!result && id == PASS_OWN)
         result = add_own_size(passes, arguments, err);
     /* Reflectivities are small, and their edges show as much as those of the picture. */
-    if (!result && id == PASS_REFLECTANCE && switches->antialias)
+    if (!result && pass.full_size && (id == PASS_REFLECTANCE || id == PASS_SPECULAR) && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
-    if (!result && pass->technical)
+    if (!result && pass.technical)
         result = text_list_add(arguments, err, "+Q8");
     static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
     for (int i = 0; !result && id == PASS_PHOTONS && one_pixel[i]; i++)
         result = text_list_add(arguments, err, "%s", one_pixel[i]);
-    if (!result && options->subsample > 1 && !pass->full_size) {
+    if (!result && options->subsample > 1 && !pass.full_size) {
         result = text_list_add(arguments, err, "+W%d", switches->width / options->subsample);
         if (!result)
             result = text_list_add(arguments, err, "+H%d", switches->height / options->subsample);
@@ -393,6 +407,14 @@ static void no_progress(void *context, double done)
     (void)done;
 }
 
+static void add_timings(const struct passes *passes, const struct povray_job *jobs, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (jobs[i].finished)
+            timings_add_povray(passes->options->timings, jobs[i].name, jobs[i].start_s, jobs[i].wall_s,
+                               jobs[i].child.cpu_s);
+}
+
 /* POV-Ray parses the scene and is stopped by the wrapper before it draws: that is a success if the log has its last
  * line. */
 static enum result run_discovery(struct passes *passes, const char *name, const char *folder, struct error *err)
@@ -414,6 +436,7 @@ static enum result run_discovery(struct passes *passes, const char *name, const 
         result = RESULT_OK;
     else if (failed >= 0)
         result = report_failure(passes, &job, err);
+    add_timings(passes, &job, 1);
     input_file_free(&log);
     povray_jobs_free(&job, 1);
     text_list_free(&arguments);
@@ -512,6 +535,7 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
         result = report_failure(passes, &passes->jobs[failed], err);
     if (!result && !povray_is_other_version(&passes->jobs[0].messages, passes->version))
         passes->version[0] = 0;
+    add_timings(passes, passes->jobs, passes->job_count);
     povray_jobs_free(passes->jobs, passes->job_count);
     for (int i = 0; i < passes->job_count; i++) {
         text_list_free(&arguments[i]);
@@ -552,6 +576,7 @@ static enum result run_view(const struct passes *passes, int frame, int width, i
         result = povray_run(&job, 1, 1, passes->environment, no_progress, NULL, &failed, err);
     if (failed >= 0)
         result = report_failure(passes, &job, err);
+    add_timings(passes, &job, 1);
     povray_jobs_free(&job, 1);
     text_list_free(&arguments);
     free(folder);
@@ -636,6 +661,7 @@ static enum result remove_images(const struct passes *passes, const struct pass_
 /* Reads the scene and writes those of the passes. */
 static enum result prepare(struct passes *passes, int frame, struct error *note, struct error *err)
 {
+    struct timings_moment start = timings_now();
     passes->frame = frame;
     note->text[0] = 0;
     enum result result = load_scene(passes, err);
@@ -643,7 +669,10 @@ static enum result prepare(struct passes *passes, int frame, struct error *note,
         result = discover(passes, err);
     if (!result)
         result = check_scene(passes, note, err);
-    return result ? result : write_scenes(passes, err);
+    if (!result)
+        result = write_scenes(passes, err);
+    timings_add(passes->options->timings, "scene", start);
+    return result;
 }
 
 /* What POV-Ray computes may be something else in another frame. */
@@ -698,12 +727,16 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     *gbuffer = (struct gbuffer){0};
     note->text[0] = 0;
     enum result result = prepare_frame(passes, frame, err);
+    struct timings_moment start = timings_now();
     if (!result)
         result = run_passes(passes, frame, err);
+    timings_add(options->timings, "passes", start);
     if (!result && options->reads)
         result = collect_reads(passes, err);
+    start = timings_now();
     if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
+    timings_add(options->timings, "decode", start);
     if (!result)
         note_version(passes, note);
     if (!result)
@@ -744,6 +777,7 @@ enum result passes_check_sum(const struct passes *passes, int frame, const struc
         return RESULT_OK;
     frames_number(&options->frames, frame, number);
     const struct pass_images images = images_of(passes, number);
+    struct timings_moment start = timings_now();
     enum result result = pass_images_radiance(&images, PASS_OWN, &own, err);
     if (!result)
         result = compose(gbuffer, &gbuffer->specular, &sum, err);
@@ -753,6 +787,7 @@ enum result passes_check_sum(const struct passes *passes, int frame, const struc
         note_difference(passes, &difference, note);
     if (!result)
         result = remove_image(passes, &images, PASS_OWN, err);
+    timings_add(options->timings, "check", start);
     image_free(&sum);
     image_free(&own);
     return result;

@@ -17,7 +17,8 @@ struct povray_job {
     struct child child;
     struct buffer messages; /* standard error */
     double done;            /* 0 to 1 */
-    double end_s;           /* of the monotonic clock; infinite: no timeout */
+    double start_s, end_s;  /* of timings_clock_s; the end is that of the timeout, infinite: none */
+    double wall_s;          /* how long it ran, once it has finished */
     bool started, finished;
 };
 

@@ -46,6 +46,7 @@ static const struct rules copy_rules[SCENE_COPY_COUNT] = {
     [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .marks = true, .pigments = true, .covers = true,
                                   .technical = true},
     [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .marks = true, .covers = true},
+    [SCENE_COPY_REFLECTION] = {"reflection", STATEMENTS_DROP, .marks = true, .covers = true},
     [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .coded = true, .covers = true, .technical = true},
     [SCENE_COPY_DISCOVERY] = {"discovery", STATEMENTS_STAY, .lights = true, .discovery = true},
 };
