@@ -26,7 +26,7 @@ LDFLAGS += -fsanitize=$(SANITIZE)
 endif
 
 PACKAGES := gcc binutils make libc6-dev pkg-config povray povray-includes povray-examples libopenexr-dev libpng-dev \
-            libcmocka-dev openimageio-tools openexr mandoc dpkg-dev python3-venv perl coreutils findutils
+            libcmocka-dev openimageio-tools openexr mandoc dpkg-dev python3-venv perl coreutils findutils bubblewrap
 
 PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(wildcard src/main_*.c))
 # The kernel is compiled once per instruction set from one source.
