@@ -8,6 +8,7 @@
 #include "channels.h"
 #include "compose.h"
 #include "lobe.h"
+#include "sheet.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -343,6 +344,36 @@ static enum result write_picture(const char *path, const struct cli_filter *opti
     return image_write(path, format, options->bits, image, count > 0 ? layers : NULL, count, err);
 }
 
+enum result cli_draw_sheet(const char *path, const struct cli_filter *options, const struct cli_sheet *exponents,
+                           const struct gbuffer *gbuffer, struct error *err)
+{
+    struct image sheet = {0};
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < exponents->count; i++) {
+        struct filter_options filter = options->filter;
+        filter.phong = exponents->phong[i];
+        filter.phong_override = true;
+        struct image glossy = {0}, image = {0};
+        char label[32];
+        snprintf(label, sizeof label, "p = %g", (double)filter.phong);
+        result = filter_glossy(gbuffer, &filter, &glossy, NULL, err);
+        if (!result)
+            result = compose(gbuffer, &glossy, &image, err);
+        if (!result && gbuffer->window.width > 0)
+            result = image_crop(&image, &gbuffer->window, err);
+        if (!result && i == 0)
+            result = sheet_alloc(&sheet, exponents->count, image.width, image.height, err);
+        if (!result)
+            sheet_put(&sheet, exponents->count, i, &image, label);
+        image_free(&glossy);
+        image_free(&image);
+    }
+    if (!result)
+        result = write_picture(path, options, &sheet, NULL, NULL, err);
+    image_free(&sheet);
+    return result;
+}
+
 enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                       struct image *glossy, struct image *measure, struct error *err)
 {
@@ -370,6 +401,25 @@ enum result cli_draw(const char *path, const struct cli_filter *options, const s
     return result;
 }
 
+/* Exponents with commas between them. */
+static enum result set_sheet(const char *value, struct cli_sheet *sheet, struct error *err)
+{
+    enum { MAX_TEXT = 64 };
+    sheet->count = 0;
+    for (const char *at = value; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        char text[MAX_TEXT];
+        double phong;
+        snprintf(text, sizeof text, "%.*s", (int)strcspn(at, ","), at);
+        enum result result = cli_number("--sheet", text, 0, INFINITY, &phong, err);
+        if (result)
+            return result;
+        if (sheet->count == CLI_SHEET_MAX)
+            return error_set(err, RESULT_USAGE, "--sheet: at most %d exponents", CLI_SHEET_MAX);
+        sheet->phong[sheet->count++] = (float)phong;
+    }
+    return RESULT_OK;
+}
+
 /* One argument that begins with "-". */
 static enum result glossfilter_option(int argc, char **argv, int *index, struct cli_glossfilter *command,
                                       struct error *err)
@@ -394,6 +444,10 @@ static enum result glossfilter_option(int argc, char **argv, int *index, struct 
         result = channels_check_map(value, err);
     if (result == RESULT_OK && value)
         return text_list_add(&command->map, err, "%s", value);
+    if (result == RESULT_OK)
+        result = cli_value(argc, argv, index, "--sheet", &value, err);
+    if (result == RESULT_OK && value)
+        return set_sheet(value, &command->sheet, err);
     if (result != RESULT_OK)
         return result;
     bool taken;
@@ -431,6 +485,9 @@ enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *comma
         return RESULT_OK;
     if (!command->output)
         return error_set(err, RESULT_USAGE, "no output: say where with -o FILE; see --help");
+    if (command->sheet.count && (command->options.filter.phong_override || command->options.layers))
+        return error_set(err, RESULT_USAGE, "--sheet has exponents of its own and no layers: leave out %s",
+                         command->options.layers ? "--layers" : "--phong and --roughness");
     return cli_check_output(command->output, &command->options, err);
 }
 

@@ -55,6 +55,18 @@ MUST_CHECK enum result cli_write(const char *path, const struct cli_filter *opti
 MUST_CHECK enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                 struct error *err);
 
+/* Exponents of a contact sheet's pictures. */
+enum { CLI_SHEET_MAX = 100 };
+struct cli_sheet {
+    float phong[CLI_SHEET_MAX];
+    int count; /* 0: no sheet */
+};
+
+/* Filters the passes by each exponent, in place of their own, and writes a sheet of the pictures to `path`. */
+MUST_CHECK enum result cli_draw_sheet(const char *path, const struct cli_filter *options,
+                                      const struct cli_sheet *exponents, const struct gbuffer *gbuffer,
+                                      struct error *err);
+
 /* Refuses a path and options that cli_draw would refuse, before the work and not after it. */
 MUST_CHECK enum result cli_check_output(const char *path, const struct cli_filter *options, struct error *err);
 
@@ -62,6 +74,7 @@ MUST_CHECK enum result cli_check_output(const char *path, const struct cli_filte
 struct cli_glossfilter {
     struct cli_filter options;
     const char *input, *output;
+    struct cli_sheet sheet;
     struct text_list map; /* CHANNEL=NAME; the caller frees it */
     bool check, help, version;
 };

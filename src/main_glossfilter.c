@@ -23,6 +23,7 @@ static const char help[] =
 
 static const char help_end[] =
     "  -o, --output FILE    where to write\n"
+    "  --sheet P,P,...      several exponents: one picture with all of them side by side, labelled\n"
     "Passes:\n"
     "  --map CHANNEL=NAME   take a channel (P.X) or a group of them (P) from the file's channel or layer\n"
     "                       of that name; may be given again\n"
@@ -69,7 +70,8 @@ static enum result run(const struct cli_glossfilter *command, struct error *err)
     struct gbuffer gbuffer = {0};
     enum result result = passes_file_read_mapped(command->input, &command->map, &gbuffer, NULL, err);
     if (result == RESULT_OK)
-        result = cli_draw(command->output, &command->options, &gbuffer, err);
+        result = command->sheet.count ? cli_draw_sheet(command->output, &command->options, &command->sheet, &gbuffer, err)
+                                      : cli_draw(command->output, &command->options, &gbuffer, err);
     gbuffer_free(&gbuffer);
     return result;
 }
