@@ -8,6 +8,7 @@
 #include "channels.h"
 #include "compose.h"
 #include "lobe.h"
+#include "picture.h"
 #include "sheet.h"
 
 #include <ctype.h>
@@ -353,19 +354,14 @@ enum result cli_draw_sheet(const char *path, const struct cli_filter *options, c
         struct filter_options filter = options->filter;
         filter.phong = exponents->phong[i];
         filter.phong_override = true;
-        struct image glossy = {0}, image = {0};
+        struct image image = {0};
         char label[32];
         snprintf(label, sizeof label, "p = %g", (double)filter.phong);
-        result = filter_glossy(gbuffer, &filter, &glossy, NULL, err);
-        if (!result)
-            result = compose(gbuffer, &glossy, &image, err);
-        if (!result && gbuffer->window.width > 0)
-            result = image_crop(&image, &gbuffer->window, err);
+        result = picture_draw(gbuffer, &filter, &image, err);
         if (!result && i == 0)
             result = sheet_alloc(&sheet, exponents->count, image.width, image.height, err);
         if (!result)
             sheet_put(&sheet, exponents->count, i, &image, label);
-        image_free(&glossy);
         image_free(&image);
     }
     if (!result)
@@ -425,8 +421,10 @@ static enum result glossfilter_option(int argc, char **argv, int *index, struct 
                                       struct error *err)
 {
     const char *argument = argv[*index], *value;
-    if (is(argument, "-h") || is(argument, "--help") || is(argument, "--version") || is(argument, "--check")) {
+    if (is(argument, "-h") || is(argument, "--help") || is(argument, "--version") || is(argument, "--check") ||
+        is(argument, "--view")) {
         *(is(argument, "--check")     ? &command->check
+          : is(argument, "--view")    ? &command->view
           : is(argument, "--version") ? &command->version
                                       : &command->help) = true;
         *index += 1;
@@ -481,7 +479,9 @@ enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *comma
         return error_set(err, RESULT_USAGE, "no passes file: glossfilter PASSES.exr -o OUT.exr; see --help");
     if (command->check && command->output)
         return error_set(err, RESULT_USAGE, "--check only looks at the passes: leave out -o");
-    if (command->check)
+    if (command->view && (command->check || command->sheet.count))
+        return error_set(err, RESULT_USAGE, "--view opens a window: leave out --check and --sheet");
+    if (command->check || (command->view && !command->output))
         return RESULT_OK;
     if (!command->output)
         return error_set(err, RESULT_USAGE, "no output: say where with -o FILE; see --help");

@@ -76,7 +76,7 @@ struct cli_glossfilter {
     const char *input, *output;
     struct cli_sheet sheet;
     struct text_list map; /* CHANNEL=NAME; the caller frees it */
-    bool check, help, version;
+    bool check, view, help, version;
 };
 
 MUST_CHECK enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *command, struct error *err);

@@ -62,8 +62,8 @@ struct pass {
 extern const struct pass pass_table[PASS_COUNT];
 
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
- * where it has one; exponents where there are several (antialiased, too, where one is painted), where a texture may mix a glossy surface with another one, or where
- * a total reflection may be taken for one. */
+ * where it has one; exponents where there are several (antialiased, too, where one is painted), where a texture may mix a
+ * glossy surface with another one, or where a total reflection may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are

@@ -52,8 +52,9 @@ enum result sheet_alloc(struct image *sheet, int count, int width, int height, s
     double wide = GAP_PX + (double)across * cell_width, high = GAP_PX + (double)down * cell_height;
     *sheet = (struct image){0};
     if (wide > IMAGE_MAX_SIDE || high > IMAGE_MAX_SIDE)
-        return error_set(err, RESULT_DATA, "a sheet of %d pictures would be %.0f x %.0f pixels, more than %d on a side: "
-                         "name fewer exponents", count, wide, high, IMAGE_MAX_SIDE);
+        return error_set(err, RESULT_DATA,
+                         "a sheet of %d pictures would be %.0f x %.0f pixels, more than %d on a side: name fewer exponents",
+                         count, wide, high, IMAGE_MAX_SIDE);
     enum result result = image_alloc(sheet, (int)wide, (int)high, 3, err);
     for (int channel = 0; !result && channel < 3; channel++)
         for (int y = 0; y < sheet->height; y++)

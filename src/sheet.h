@@ -8,8 +8,8 @@
  * root of their number, rounded up. The caller frees it. RESULT_DATA: a side above IMAGE_MAX_SIDE, memory. */
 MUST_CHECK enum result sheet_alloc(struct image *sheet, int count, int width, int height, struct error *err);
 
-/* Copies the first 3 channels of the picture to its place, and the label above it: of a text, the letters e f i n p, digits
- * and . + - = are drawn, everything else is a space; what is too long is cut off. */
+/* Copies the first 3 channels of the picture to its place, and the label above it: of a text, the letters e f i n p,
+ * digits and . + - = are drawn, everything else is a space; what is too long is cut off. */
 void sheet_put(struct image *sheet, int count, int index, const struct image *picture, const char *label);
 
 #endif

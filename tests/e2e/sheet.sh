@@ -42,7 +42,7 @@ refused() {
     run "$bin/glossfilter" passes.exr "$@"
     expect_status 2 && expect_message "$message" && expect_one_line glossfilter && expect_no_file refused.png
 }
-for wrong in '' , 30, ,30 30,,40 x 30x '30, 40' -1 nan; do
+for wrong in '' ',' '30,' ',30' '30,,40' x 30x '30, 40' -1 nan; do
     check "sheet__of_'$wrong'__refused" refused 'must be a number from 0 to inf' "--sheet=$wrong" -o refused.png
 done
 check 'sheet__of_101__refused' refused 'at most 100 exponents' --sheet "$(seq -s, 101)" -o refused.png
