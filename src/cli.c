@@ -7,7 +7,9 @@
 
 #include "channels.h"
 #include "compose.h"
+#include "input_file.h"
 #include "lobe.h"
+#include "passes_file.h"
 #include "picture.h"
 #include "sheet.h"
 
@@ -467,8 +469,10 @@ enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *comma
             enum result result = glossfilter_option(argc, argv, &index, command, err);
             if (result != RESULT_OK)
                 return result;
+        } else if (command->input && command->band_count == CLI_BANDS_MAX) {
+            return error_set(err, RESULT_USAGE, "%s: at most %d passes files; see --help", argv[index], CLI_BANDS_MAX + 1);
         } else if (command->input) {
-            return error_set(err, RESULT_USAGE, "%s: one passes file only; see --help", argv[index]);
+            command->bands[command->band_count++] = argv[index++];
         } else {
             command->input = argv[index++];
         }
@@ -479,6 +483,8 @@ enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *comma
         return error_set(err, RESULT_USAGE, "no passes file: glossfilter PASSES.exr -o OUT.exr; see --help");
     if (command->check && command->output)
         return error_set(err, RESULT_USAGE, "--check only looks at the passes: leave out -o");
+    if (command->check && command->band_count)
+        return error_set(err, RESULT_USAGE, "%s: --check looks at one passes file", command->bands[0]);
     if (command->view && (command->check || command->sheet.count))
         return error_set(err, RESULT_USAGE, "--view opens a window: leave out --check and --sheet");
     if (command->check || (command->view && !command->output))
@@ -489,6 +495,21 @@ enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *comma
         return error_set(err, RESULT_USAGE, "--sheet has exponents of its own and no layers: leave out %s",
                          command->options.layers ? "--layers" : "--phong and --roughness");
     return cli_check_output(command->output, &command->options, err);
+}
+
+enum result cli_read(const struct cli_glossfilter *command, struct gbuffer *gbuffer, struct error *err)
+{
+    enum result result = passes_file_read_mapped(command->input, &command->map, gbuffer, NULL, err);
+    for (int i = 0; !result && i < command->band_count; i++) {
+        struct gbuffer band;
+        struct error cause;
+        result = passes_file_read_mapped(command->bands[i], &command->map, &band, NULL, err);
+        if (!result && gbuffer_join(gbuffer, &band, &cause))
+            result = error_set(err, RESULT_DATA, "%s: %s", input_file_name(command->bands[i]), cause.text);
+    }
+    if (result)
+        gbuffer_free(gbuffer);
+    return result;
 }
 
 void cli_complain(const char *program, const struct error *err)

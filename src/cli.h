@@ -71,15 +71,21 @@ MUST_CHECK enum result cli_draw_sheet(const char *path, const struct cli_filter 
 MUST_CHECK enum result cli_check_output(const char *path, const struct cli_filter *options, struct error *err);
 
 /* The command line of glossfilter. */
+enum { CLI_BANDS_MAX = 999 };
 struct cli_glossfilter {
     struct cli_filter options;
     const char *input, *output;
+    const char *bands[CLI_BANDS_MAX]; /* further passes files: bands of the same picture */
+    int band_count;
     struct cli_sheet sheet;
     struct text_list map; /* CHANNEL=NAME; the caller frees it */
     bool check, view, help, version;
 };
 
 MUST_CHECK enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *command, struct error *err);
+
+/* Reads the passes file, or joins its bands, into *gbuffer, which the caller frees. */
+MUST_CHECK enum result cli_read(const struct cli_glossfilter *command, struct gbuffer *gbuffer, struct error *err);
 
 /* Prints "program: message" to standard error. */
 void cli_complain(const char *program, const struct error *err);

@@ -29,6 +29,11 @@ struct gbuffer {
 
 #define GBUFFER_GAMMA_SRGB (-1.0f)
 
+/* Puts the pixels of `part` where all planes of *whole are 0, and frees it: bands of one picture, each rendered by itself
+ * in planes of the whole size that are 0 elsewhere. Of the eye and the view angle those of the first that has them count.
+ * RESULT_DATA: planes or sizes differ; *part is freed then, too. */
+MUST_CHECK enum result gbuffer_join(struct gbuffer *whole, struct gbuffer *part, struct error *err);
+
 /* Frees all planes and clears the rest. */
 void gbuffer_free(struct gbuffer *gbuffer);
 

@@ -17,10 +17,11 @@
 static const char program[] = "glossfilter";
 
 static const char help[] =
-    "usage: glossfilter PASSES.exr -o OUT.exr [options]\n"
+    "usage: glossfilter PASSES.exr [BAND.exr ...] -o OUT.exr [options]\n"
     "\n"
     "Blurs the mirror reflections of a passes file by the lobe of each glossy surface, and adds\n"
-    "them to the rest of the picture. \"-\" is standard input or output.\n"
+    "them to the rest of the picture. \"-\" is standard input or output. Several passes files are bands\n"
+    "of one picture (povgloss passes +SR1 +ER64 ...), which are joined.\n"
     "\n"
     "  glossfilter passes.exr -o glossy.png\n"
     "  glossfilter - --phong 300 -o - --format exr < passes.exr > glossy.exr\n"
@@ -75,7 +76,7 @@ static enum result check(const struct cli_glossfilter *command, struct error *er
 static enum result run(const struct cli_glossfilter *command, struct error *err)
 {
     struct gbuffer gbuffer = {0};
-    enum result result = passes_file_read_mapped(command->input, &command->map, &gbuffer, NULL, err);
+    enum result result = cli_read(command, &gbuffer, err);
     if (result == RESULT_OK)
         result = command->sheet.count
                      ? cli_draw_sheet(command->output, &command->options, &command->sheet, &gbuffer, err)

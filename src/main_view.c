@@ -9,7 +9,6 @@
 #include "input_file.h"
 #include "interrupt.h"
 #include "lobe.h"
-#include "passes_file.h"
 #include "picture.h"
 
 #include <SDL.h>
@@ -357,7 +356,7 @@ static enum result run(const struct cli_glossfilter *command, struct error *err)
 {
     struct view view = {.command = command, .coarse = 2};
     SDL_Thread *thread = NULL;
-    enum result result = passes_file_read_mapped(command->input, &command->map, &view.levels[0], NULL, err);
+    enum result result = cli_read(command, &view.levels[0], err);
     for (int level = 1; !result && level < LEVELS; level++)
         result = picture_reduce(&view.levels[0], 1 << level, &view.levels[level], err);
     if (!result)
