@@ -158,6 +158,10 @@ build/mitsuba/bin/python:
 	python3 -m venv build/mitsuba
 	build/mitsuba/bin/pip install -q --disable-pip-version-check mitsuba numpy || { rm -rf build/mitsuba; exit 1; }
 
+.PHONY: slurm
+slurm: ## install Slurm and GNU parallel, for the test of scripts/povgloss-array.sbatch
+	$(MAKE) --no-print-directory deps PACKAGES='slurm-wlm parallel'
+
 .PHONY: demo
 demo: build/demo.png ## render the demo scene
 	@echo "The picture is build/demo.png"
