@@ -21,6 +21,7 @@ enum pass_id {
     PASS_ENDPOINT_LOW,
     PASS_DIRECTION,
     PASS_EXPONENT,
+    PASS_EXPONENT_MEAN,
     PASS_OWN, /* POV-Ray's own picture of the scene as it is, small and without antialiasing */
     PASS_MIRROR, /* the mirrored rays' directions, for probes: an endpoint may lie behind glass that bends the ray */
     PASS_MIRROR_LOW,
@@ -48,6 +49,7 @@ struct pass {
     const char *name;
     bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
+    bool smooth;    /* antialiased, whatever the user asks */
     bool technical; /* colours are numbers: linear, without media or radiosity */
     enum position_digits digits;
     const char *mirror_colour; /* reflectivity of its glossy finishes */
@@ -63,8 +65,9 @@ extern const struct pass pass_table[PASS_COUNT];
 struct pass pass_of(const struct scene *scene, enum pass_id id);
 
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
- * where it has one, or media, or focal blur, which mixes the sky into glossy surfaces; exponents where there are several,
- * where a texture may mix a glossy surface with another one, or where a total reflection may be taken for one. */
+ * where it has one, or media, or focal blur, which mixes the sky into glossy surfaces; exponents where there are several
+ * (antialiased, too, where one is painted), where a texture may mix a glossy surface with another one, or where a total
+ * reflection may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are

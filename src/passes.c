@@ -285,6 +285,9 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     /* Reflectivities are small, and their edges show as much as those of the picture. */
     if (!result && pass.full_size && (id == PASS_REFLECTANCE || id == PASS_SPECULAR) && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
+    static const char *const smooth[] = {"+A0.0", "+AM1", "+R3", "-J", "Antialias_Gamma=1.0", NULL};
+    for (int i = 0; !result && pass.smooth && smooth[i]; i++)
+        result = text_list_add(arguments, err, "%s", smooth[i]);
     if (!result && pass.technical)
         result = text_list_add(arguments, err, "+Q8");
     static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
