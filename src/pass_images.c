@@ -173,6 +173,75 @@ static void fill_exponents(struct gbuffer *gbuffer, double single, const struct 
         }
 }
 
+/* With focal blur the specular pass holds L0 as the surface reflects it, averaged over the aperture and as large as the
+ * base: divided by the reflectance, which is averaged alike, it is L0 again. */
+static enum result divide_specular(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
+{
+    const double gamma = images->scene->working_gamma, least = 1e-4;
+    const int step = images->subsample;
+    const struct image *reflectance = &gbuffer->reflectance;
+    struct image divided;
+    enum result result = image_alloc(&divided, reflectance->width / step, reflectance->height / step, 3, err);
+    for (int channel = 0; !result && channel < 3; channel++)
+        for (int y = 0; y < divided.height; y++)
+            for (int x = 0; x < divided.width; x++) {
+                double reflected = 0, reflectivity = 0;
+                for (int v = y * step; v < (y + 1) * step; v++)
+                    for (int u = x * step; u < (x + 1) * step; u++) {
+                        reflected += gamma_encode(gamma, (double)image_row(&gbuffer->specular, channel, v)[u]);
+                        reflectivity += (double)image_row(reflectance, channel, v)[u];
+                    }
+                bool reflects = reflectivity > least * step * step;
+                image_row(&divided, channel, y)[x] = reflects ? (float)gamma_decode(gamma, reflected / reflectivity) : 0;
+            }
+    image_free(&gbuffer->specular);
+    gbuffer->specular = divided;
+    return result;
+}
+
+static void copy_surface(struct gbuffer *gbuffer, size_t from, size_t to)
+{
+    struct image *const planes[] = {&gbuffer->position, &gbuffer->endpoint, &gbuffer->phong};
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
+        for (int channel = 0; channel < planes[i]->channels; channel++) {
+            int width = planes[i]->width, column = (int)(from % (size_t)width), row = (int)(from / (size_t)width);
+            image_row(planes[i], channel, (int)(to / (size_t)width))[to % (size_t)width] =
+                image_row(planes[i], channel, row)[column];
+        }
+}
+
+/* The aperture sees glossy surfaces beyond the silhouettes that its centre sees: there they have a, b and the exponent of the
+ * nearest glossy pixel. */
+static enum result widen_surfaces(struct gbuffer *gbuffer, struct error *err)
+{
+    const int width = gbuffer->phong.width, height = gbuffer->phong.height;
+    const size_t count = (size_t)width * (size_t)height;
+    size_t *queue = malloc(count * sizeof *queue), first = 0, end = 0;
+    bool *reached = calloc(count, sizeof *reached);
+    enum result result = queue && reached ? RESULT_OK : error_memory(err, (double)count * sizeof *queue);
+    for (size_t i = 0; !result && i < count; i++)
+        if (image_row(&gbuffer->phong, 0, (int)(i / (size_t)width))[i % (size_t)width] > 0) {
+            reached[i] = true;
+            queue[end++] = i;
+        }
+    while (!result && first < end) {
+        size_t from = queue[first++];
+        int x = (int)(from % (size_t)width), y = (int)(from / (size_t)width);
+        for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < height; v++)
+            for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < width; u++) {
+                size_t to = (size_t)v * (size_t)width + (size_t)u;
+                if (reached[to] || !any_nonzero(&gbuffer->specular, u, v))
+                    continue;
+                reached[to] = true;
+                copy_surface(gbuffer, from, to);
+                queue[end++] = to;
+            }
+    }
+    free(queue);
+    free(reached);
+    return result;
+}
+
 /* Where nothing is glossy a is 0 and so is b: the passes file holds what the filter needs. */
 static void clear_unused(struct gbuffer *gbuffer)
 {
@@ -314,13 +383,21 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     if (!result)
         result = alloc_exponents(gbuffer, &codes, err);
     if (!result)
+        scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
+    if (!result && images->scene->focal_blur && same_size(&gbuffer->specular, &gbuffer->reflectance))
+        result = divide_specular(images, gbuffer, err);
+    if (!result)
         result = check_sizes(images, gbuffer, &directions, err);
     if (!result) {
         fill_exponents(gbuffer, images->scene->exponent, &codes);
-        unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
-        scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
+        if (!images->scene->focal_blur)
+            unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
         eye_find(gbuffer, &directions);
+        if (images->scene->focal_blur)
+            result = widen_surfaces(gbuffer, err);
+    }
+    if (!result) {
         clear_unused(gbuffer);
         note_invisible(gbuffer, images->name, note);
         if (images->subsample > 1)

@@ -59,9 +59,12 @@ struct pass {
 
 extern const struct pass pass_table[PASS_COUNT];
 
+/* The pass as this scene takes it. */
+struct pass pass_of(const struct scene *scene, enum pass_id id);
+
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
- * where it has one; exponents where there are several, where a texture may mix a glossy surface with another one, or where
- * a total reflection may be taken for one. */
+ * where it has one, or media, or focal blur, which mixes the sky into glossy surfaces; exponents where there are several,
+ * where a texture may mix a glossy surface with another one, or where a total reflection may be taken for one. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are

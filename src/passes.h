@@ -2,8 +2,8 @@
  *
  *   base         the scene with the glossy finishes' reflection switched off
  *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors and the rest is black, mirrored
- *                rays see the scene itself
- *   haze         where there is fog, a rainbow or media: the same without mirrors, which is what they add before the glossy
+ *                rays see the scene itself; with focal blur times the reflectance, averaged over the aperture
+ *   haze         where there is fog, a rainbow, media or focal blur: the same without mirrors, which is what they add before the glossy
  *                surface to the specular pass
  *   reflectance  glossy surfaces with their own reflection and no shading, under a sky of one half
  *   position     a, coded as a colour (position_code.h)
