@@ -389,10 +389,15 @@ void cli_warn_of_pixels(const char *program, const char *name, const struct cli_
 {
     if (options->quiet)
         return;
-    long left_out = filter_left_out(gbuffer), spoilt = 0;
+    const struct filter_options *filter = &options->filter;
+    bool other = filter->phong_override && gbuffer->rays.pixels && gbuffer->phong.pixels;
+    long left_out = filter_left_out(gbuffer), spoilt = 0, unused = 0;
     for (int y = 0; y < gbuffer->specular.height; y++)
-        for (int x = 0; x < gbuffer->specular.width; x++)
+        for (int x = 0; x < gbuffer->specular.width; x++) {
             spoilt += !is_finite(&gbuffer->base, x, y) || !is_finite(&gbuffer->reflectance, x, y);
+            unused += other && image_row(&gbuffer->rays, 3, y)[x] > 0 &&
+                      image_row(&gbuffer->phong, 0, y)[x] != filter->phong;
+        }
     if (left_out > 0)
         fprintf(stderr,
                 "%s: warning: %s: %ld glossy pixel%s left out, without a reflection: exponent, position, endpoint or "
@@ -402,6 +407,11 @@ void cli_warn_of_pixels(const char *program, const char *name, const struct cli_
         fprintf(stderr,
                 "%s: warning: %s: base or reflectance isn't finite at %ld pixel%s, and so the picture may not be\n",
                 program, name, spoilt, spoilt > 1 ? "s" : "");
+    if (unused > 0)
+        fprintf(stderr,
+                "%s: warning: %s: the further rays of %ld pixel%s were drawn for another exponent than %g and are left "
+                "out: trace them again by povgloss render --rays N --phong %g, or leave out --phong\n",
+                program, name, unused, unused > 1 ? "s" : "", (double)filter->phong, (double)filter->phong);
 }
 
 enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,

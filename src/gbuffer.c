@@ -21,5 +21,6 @@ void gbuffer_free(struct gbuffer *gbuffer)
     image_free(&gbuffer->phong);
     image_free(&gbuffer->direction);
     image_free(&gbuffer->mirrored);
+    image_free(&gbuffer->rays);
     *gbuffer = (struct gbuffer){0};
 }

@@ -19,6 +19,7 @@ struct gbuffer {
                                  (the filter's exponent applies wherever the endpoint is not all zero) */
     struct image direction;   /* X Y Z: unit vectors along the eye's rays, */
     struct image mirrored;    /* and along the mirrored ones; for probes, else empty: no passes file holds them */
+    struct image rays;        /* R G B A: mean radiance of further rays of the lobe of `phong`, and how many; may be empty */
     bool has_eye;
     float eye[3];       /* world units; without it the footprint comes from the gradient of the direction field */
     float view_angle;   /* of the planes' width, radians; 0: unknown */
