@@ -49,19 +49,23 @@ const struct pass pass_table[PASS_COUNT] = {
                              .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
+                       .glossy_part = true,
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
     [PASS_HAZE] = {.name = "haze",
+                   .glossy_part = true,
                    .mirror_colour = mirror_white,
                    .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                    .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_haze}},
     [PASS_REFLECTANCE] = {.name = "reflectance",
+                          .glossy_part = true,
                           .full_size = true,
                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
                           .second = {.copy = -1},
                           .trailer = sky_half},
     [PASS_POSITION] = {.name = "position",
+                       .glossy_part = true,
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
@@ -69,6 +73,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                        .second = {.copy = -1}},
     [PASS_POSITION_LOW] = {.name = "position-low",
+                           .glossy_part = true,
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
@@ -76,6 +81,7 @@ const struct pass pass_table[PASS_COUNT] = {
                            .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                            .second = {.copy = -1}},
     [PASS_ENDPOINT] = {.name = "endpoint",
+                       .glossy_part = true,
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
@@ -85,6 +91,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .coded_sky = true},
     [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
+                           .glossy_part = true,
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
@@ -113,6 +120,7 @@ const struct pass pass_table[PASS_COUNT] = {
                   .first = {.copy = SCENE_COPY_PLAIN, .modifiers = ""},
                   .second = {.copy = -1}},
     [PASS_MIRROR] = {.name = "mirror",
+                     .glossy_part = true,
                      .codes = true,
                      .technical = true,
                      .digits = POSITION_DIGITS_HIGH,
@@ -121,6 +129,7 @@ const struct pass pass_table[PASS_COUNT] = {
                      .second = {.copy = -1},
                      .coded_sky = true},
     [PASS_MIRROR_LOW] = {.name = "mirror-low",
+                         .glossy_part = true,
                          .codes = true,
                          .technical = true,
                          .digits = POSITION_DIGITS_LOW,
@@ -539,11 +548,14 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_PROBE || pass_is_mirror(id))
         return false;
-    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
-        return false;
     if (id == PASS_HAZE && !scene->atmosphere)
         return false;
     return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
+}
+
+bool pass_exponents_differ(const struct scene *scene)
+{
+    return scene->exponent < 0 || scene->mixes || scene->refracts;
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])
