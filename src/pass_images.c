@@ -37,6 +37,29 @@ static enum result read_codes(const struct pass_images *images, enum pass_id id,
     return result;
 }
 
+enum result pass_images_glossy(const struct pass_images *images, struct image_window *window, struct error *err)
+{
+    enum { MARGIN = 2 };
+    struct image codes = {0};
+    enum result result = read_codes(images, PASS_EXPONENT, &codes, err);
+    int left = codes.width, top = codes.height, right = 0, bottom = 0;
+    for (int y = 0; y < codes.height; y++)
+        for (int x = 0; x < codes.width; x++)
+            if (image_row(&codes, 2, y)[x] > 0) {
+                left = x < left ? x : left;
+                right = x >= right ? x + 1 : right;
+                top = y < top ? y : top;
+                bottom = y + 1;
+            }
+    left = left > MARGIN && right > 0 ? left - MARGIN : 0;
+    top = top > MARGIN && right > 0 ? top - MARGIN : 0;
+    right = right + MARGIN < codes.width ? right + MARGIN : codes.width;
+    bottom = bottom + MARGIN < codes.height ? bottom + MARGIN : codes.height;
+    *window = (struct image_window){.left = left, .top = top, .width = right - left, .height = bottom - top};
+    image_free(&codes);
+    return result;
+}
+
 enum result pass_images_radiance(const struct pass_images *images, enum pass_id id, struct image *image,
                                  struct error *err)
 {
@@ -373,7 +396,7 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     enum result result = pass_images_radiance(images, PASS_BASE, &gbuffer->base, err);
     if (result || !images->scene->glossy)
         return result ? result : make_dull(gbuffer, err);
-    if (pass_needed(images->scene, PASS_EXPONENT))
+    if (pass_exponents_differ(images->scene))
         result = read_codes(images, PASS_EXPONENT, &codes, err);
     if (!result && pass_needed(images->scene, PASS_EXPONENT_MEAN))
         result = read_codes(images, PASS_EXPONENT_MEAN, &means, err);

@@ -58,19 +58,23 @@ const struct pass pass_table[PASS_COUNT] = {
                              .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
+                       .glossy_part = true,
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
     [PASS_HAZE] = {.name = "haze",
+                   .glossy_part = true,
                    .mirror_colour = mirror_white,
                    .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                    .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_haze}},
     [PASS_REFLECTANCE] = {.name = "reflectance",
+                          .glossy_part = true,
                           .full_size = true,
                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
                           .second = {.copy = -1},
                           .trailer = sky_half},
     [PASS_POSITION] = {.name = "position",
+                       .glossy_part = true,
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
@@ -78,6 +82,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                        .second = {.copy = -1}},
     [PASS_POSITION_LOW] = {.name = "position-low",
+                           .glossy_part = true,
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
@@ -85,6 +90,7 @@ const struct pass pass_table[PASS_COUNT] = {
                            .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                            .second = {.copy = -1}},
     [PASS_ENDPOINT] = {.name = "endpoint",
+                       .glossy_part = true,
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
@@ -94,6 +100,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .coded_sky = true},
     [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
+                           .glossy_part = true,
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
@@ -130,6 +137,7 @@ const struct pass pass_table[PASS_COUNT] = {
                   .first = {.copy = SCENE_COPY_PLAIN, .modifiers = ""},
                   .second = {.copy = -1}},
     [PASS_MIRROR] = {.name = "mirror",
+                     .glossy_part = true,
                      .codes = true,
                      .technical = true,
                      .digits = POSITION_DIGITS_HIGH,
@@ -138,6 +146,7 @@ const struct pass pass_table[PASS_COUNT] = {
                      .second = {.copy = -1},
                      .coded_sky = true},
     [PASS_MIRROR_LOW] = {.name = "mirror-low",
+                         .glossy_part = true,
                          .codes = true,
                          .technical = true,
                          .digits = POSITION_DIGITS_LOW,
@@ -538,6 +547,9 @@ struct pass pass_of(const struct scene *scene, enum pass_id id)
         pass.second.copy = SCENE_COPY_REFLECTION;
         pass.second.finish_end = id == PASS_HAZE ? end_haze_of_reflection : end_reflection;
     }
+    /* It also sees glossy surfaces beyond the silhouettes of the exponent pass, which has none. */
+    if (scene->focal_blur && pass.full_size)
+        pass.glossy_part = false;
     return pass;
 }
 
@@ -619,14 +631,17 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_PROBE || pass_is_mirror(id))
         return false;
-    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
-        return false;
     if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;
     /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye, too. */
     if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line && !scene->focal_blur)
         return false;
     return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
+}
+
+bool pass_exponents_differ(const struct scene *scene)
+{
+    return scene->exponent < 0 || scene->mixes || scene->refracts;
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])
