@@ -26,7 +26,7 @@ LDFLAGS += -fsanitize=$(SANITIZE)
 endif
 
 PACKAGES := gcc binutils make libc6-dev pkg-config povray povray-includes povray-examples libopenexr-dev libpng-dev \
-            libcmocka-dev openimageio-tools openexr mandoc dpkg-dev python3-venv perl coreutils findutils
+            libcmocka-dev openimageio-tools openexr mandoc dpkg-dev python3-venv perl coreutils findutils bubblewrap
 
 PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(wildcard src/main_*.c))
 # The kernel is compiled once per instruction set from one source.
@@ -190,6 +190,10 @@ build/figures/figures.png: $(FIGURES)
 check: all $(UNIT_TESTS) $(TOOLS) $(FUZZ_REPLAYS) ## all tests; SANITIZE=address,undefined tests a sanitized build
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools CC=$(CC) scripts/check.sh $(UNIT_TESTS)
 
+.PHONY: accuracy-float
+accuracy-float: $(BUILD)/tests/tools/float_accuracy ## the table of the filters' errors against double, in docs/reliability.md
+	@$<
+
 .PHONY: faults
 faults: $(PROGRAMS) $(PRELOAD) $(TOOLS) ## every call that can fail, failing in turn, and 100 signals (long)
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools FAULTS=all MOMENTS=100 prove --exec '' --timer tests/e2e/faults.sh \
@@ -262,7 +266,7 @@ clean: ## remove everything that make built
 
 .PHONY: help
 help: ## this list
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1 \t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 \t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 24
 
 .SECONDARY:
 -include $(wildcard $(BUILD)/obj/*.d $(BUILD)/tests/*.d $(BUILD)/tests/tools/*.d)

@@ -39,6 +39,7 @@ static bool take_flag(const char *argument, struct command *command)
         {"--print-include-dir", &command->print_include_dir},
         {"--from-scene", &command->from_scene},
         {"--resume", &command->resume},
+        {"--sandbox", &command->passes.sandbox},
         {"--no-check", &command->no_check},
     };
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)

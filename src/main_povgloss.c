@@ -41,6 +41,8 @@ static const char help[] =
     "                       meets is in the blur, and the error falls with N (default 0)\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
     "  --timeout SECONDS    end a POV-Ray process that runs longer, and fail; 0: never (default)\n"
+    "  --sandbox            run POV-Ray under bubblewrap: no network, no files but the scene's folders (read\n"
+    "                       only) and the system's\n"
     "  --no-check           don't compare the sum of the passes with a small picture by POV-Ray itself\n"
     "  --depfile FILE       write a make rule that names every file the scene read, but the system's\n"
     "  --keep DIR           leave the rewritten scenes and POV-Ray's images in DIR\n"

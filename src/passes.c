@@ -10,6 +10,7 @@
 #include "pass_images.h"
 #include "picture_check.h"
 #include "reads.h"
+#include "sandbox.h"
 #include "scene_discover.h"
 #include "work_folder.h"
 
@@ -31,6 +32,7 @@ struct passes {
     int frame;                        /* for which the scene was read */
     struct text_list directories;     /* where includes are looked for, absolute; they have links lib0, lib1, ... */
     struct text_list directory_names; /* the same as the user wrote them */
+    struct text_list command;         /* the sandbox, if there is one, and the program */
     char **environment;               /* of POV-Ray: the strings are those of environ, a constant and `preload` */
     char *preload;
     struct reads reads;
@@ -203,19 +205,37 @@ enum result passes_load_scene(const struct passes_options *options, struct scene
 
 /* ---- running ---- */
 
+/* POV-Ray's sandbox and program; it runs in a folder of its own. */
+static enum result find_command(struct passes *passes, struct error *err)
+{
+    const char *name = passes->options->povray;
+    char *program = NULL, *object = NULL;
+    enum result result = RESULT_OK;
+    if (strchr(name, '/') || passes->options->sandbox)
+        result = program_find(name, &program, err);
+    if (!result && passes->options->sandbox && !program)
+        result = povray_missing(name, err);
+    if (!result && passes->options->sandbox && passes->options->reads)
+        result = text_printf(&object, err, "%s/reads.so", passes->folder.path);
+    if (!result && passes->options->sandbox)
+        result = sandbox_begin(passes->folder.path, &passes->directories, (const char *const[]){program, object}, 2,
+                               &passes->command, err);
+    if (!result)
+        result = text_list_add(&passes->command, err, "%s", program ? program : name);
+    free(program);
+    free(object);
+    return result;
+}
+
 /* The program, the user's switches, where files are looked for, the scene and its frame. */
 static enum result scene_arguments(const struct passes *passes, int frame, struct text_list *arguments,
                                    struct error *err)
 {
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
-    /* POV-Ray runs in a folder of its own. */
-    errno = 0;
-    char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
-    if (!program && errno == ENOMEM)
-        return error_memory(err, 0);
-    enum result result = text_list_add(arguments, err, "%s", program ? program : options->povray);
-    free(program);
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < passes->command.count; i++)
+        result = text_list_add(arguments, err, "%s", passes->command.texts[i]);
     for (int i = 0; !result && i < switches->passed.count; i++)
         result = text_list_add(arguments, err, "%s", switches->passed.texts[i]);
     if (!result)
@@ -762,6 +782,8 @@ enum result passes_open(const struct passes_options *options, struct passes **op
         result = link_directories(passes, err);
     if (!result)
         result = prepare_environment(passes, err);
+    if (!result)
+        result = find_command(passes, err);
     return result ? result : prepare(passes, options->frames.first, note, err);
 }
 
@@ -874,6 +896,7 @@ enum result passes_close(struct passes *passes, struct error *err)
         return RESULT_OK;
     free_scene(passes);
     reads_free(&passes->reads);
+    text_list_free(&passes->command);
     free(passes->environment);
     free(passes->preload);
     enum result result = work_folder_remove(&passes->folder, err);

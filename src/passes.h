@@ -36,6 +36,7 @@ struct passes_options {
     int timeout_s;        /* for each POV-Ray process; 0: none */
     bool check;           /* POV-Ray's own picture is rendered, too, for passes_check_sum */
     bool rays;            /* the gbuffer gets the eye's rays and the mirrored ones; not with subsampling */
+    bool sandbox;         /* POV-Ray runs in one (sandbox.h) */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;
