@@ -45,7 +45,7 @@ Maintainer: The povgloss authors <povgloss@packages.invalid>
 Installed-Size: $(du -sk --exclude=DEBIAN "$tree" | cut -f1)
 Depends: $libraries
 Recommends: povray, povray-includes$window
-Suggests: libc6-dev, pkg-config
+Suggests: bubblewrap, libc6-dev, pkg-config
 Section: graphics
 Priority: optional
 Description: glossy reflections for POV-Ray, without noise

@@ -1,4 +1,4 @@
-/* A gbuffer is a bundle of images; here they are joined and freed together. */
+/* A gbuffer is a bundle of images: how they are joined, what says that a pixel is glossy, and their end. */
 #include "gbuffer.h"
 
 #include <string.h>
@@ -54,6 +54,16 @@ enum result gbuffer_join(struct gbuffer *whole, struct gbuffer *part, struct err
     return result;
 }
 
+bool gbuffer_is_glossy(const struct gbuffer *gbuffer, int x, int y)
+{
+    if (gbuffer->phong.pixels && !(image_row(&gbuffer->phong, 0, y)[x] > 0))
+        return false;
+    for (int i = 0; i < 4; i++)
+        if (image_row(&gbuffer->endpoint, i, y)[x] != 0)
+            return true;
+    return false;
+}
+
 void gbuffer_free(struct gbuffer *gbuffer)
 {
     image_free(&gbuffer->base);
@@ -64,5 +74,6 @@ void gbuffer_free(struct gbuffer *gbuffer)
     image_free(&gbuffer->phong);
     image_free(&gbuffer->direction);
     image_free(&gbuffer->mirrored);
+    image_free(&gbuffer->rays);
     *gbuffer = (struct gbuffer){0};
 }

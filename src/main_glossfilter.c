@@ -76,7 +76,11 @@ static enum result check(const struct cli_glossfilter *command, struct error *er
 static enum result run(const struct cli_glossfilter *command, struct error *err)
 {
     struct gbuffer gbuffer = {0};
+    struct timings_moment start = timings_now();
     enum result result = cli_read(command, &gbuffer, err);
+    timings_add(command->options.timings, "read", start);
+    if (result == RESULT_OK)
+        cli_warn_of_pixels(program, input_file_name(command->input), &command->options, &gbuffer);
     if (result == RESULT_OK)
         result = command->sheet.count
                      ? cli_draw_sheet(command->output, &command->options, &command->sheet, &gbuffer, err)
@@ -102,9 +106,11 @@ static enum result view(char **argv, struct error *err)
 int main(int argc, char **argv)
 {
     struct cli_glossfilter command;
+    struct timings timings = timings_begin();
     struct error err;
     interrupt_install();
     enum result result = cli_glossfilter(argc, argv, &command, &err);
+    command.options.timings = &timings;
     if (result == RESULT_OK) {
         if (command.help)
             result = print(help, cli_filter_help, help_end, &err);
@@ -114,6 +120,8 @@ int main(int argc, char **argv)
             result = command.check  ? check(&command, &err)
                      : command.view ? view(argv, &err)
                                     : run(&command, &err);
+        if (result == RESULT_OK && command.options.show_timings)
+            timings_print(&timings, stderr);
     }
     text_list_free(&command.map);
     if (result == RESULT_INTERRUPTED)

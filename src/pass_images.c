@@ -37,6 +37,29 @@ static enum result read_codes(const struct pass_images *images, enum pass_id id,
     return result;
 }
 
+enum result pass_images_glossy(const struct pass_images *images, struct image_window *window, struct error *err)
+{
+    enum { MARGIN = 2 };
+    struct image codes = {0};
+    enum result result = read_codes(images, PASS_EXPONENT, &codes, err);
+    int left = codes.width, top = codes.height, right = 0, bottom = 0;
+    for (int y = 0; y < codes.height; y++)
+        for (int x = 0; x < codes.width; x++)
+            if (image_row(&codes, 2, y)[x] > 0) {
+                left = x < left ? x : left;
+                right = x >= right ? x + 1 : right;
+                top = y < top ? y : top;
+                bottom = y + 1;
+            }
+    left = left > MARGIN && right > 0 ? left - MARGIN : 0;
+    top = top > MARGIN && right > 0 ? top - MARGIN : 0;
+    right = right + MARGIN < codes.width ? right + MARGIN : codes.width;
+    bottom = bottom + MARGIN < codes.height ? bottom + MARGIN : codes.height;
+    *window = (struct image_window){.left = left, .top = top, .width = right - left, .height = bottom - top};
+    image_free(&codes);
+    return result;
+}
+
 enum result pass_images_radiance(const struct pass_images *images, enum pass_id id, struct image *image,
                                  struct error *err)
 {
@@ -182,6 +205,75 @@ static void fill_exponents(struct gbuffer *gbuffer, double single, const struct 
         }
 }
 
+/* With focal blur the specular pass holds L0 as the surface reflects it, averaged over the aperture and as large as the
+ * base: divided by the reflectance, which is averaged alike, it is L0 again. */
+static enum result divide_specular(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
+{
+    const double gamma = images->scene->working_gamma, least = 1e-4;
+    const int step = images->subsample;
+    const struct image *reflectance = &gbuffer->reflectance;
+    struct image divided;
+    enum result result = image_alloc(&divided, reflectance->width / step, reflectance->height / step, 3, err);
+    for (int channel = 0; !result && channel < 3; channel++)
+        for (int y = 0; y < divided.height; y++)
+            for (int x = 0; x < divided.width; x++) {
+                double reflected = 0, reflectivity = 0;
+                for (int v = y * step; v < (y + 1) * step; v++)
+                    for (int u = x * step; u < (x + 1) * step; u++) {
+                        reflected += gamma_encode(gamma, (double)image_row(&gbuffer->specular, channel, v)[u]);
+                        reflectivity += (double)image_row(reflectance, channel, v)[u];
+                    }
+                bool reflects = reflectivity > least * step * step;
+                image_row(&divided, channel, y)[x] = reflects ? (float)gamma_decode(gamma, reflected / reflectivity) : 0;
+            }
+    image_free(&gbuffer->specular);
+    gbuffer->specular = divided;
+    return result;
+}
+
+static void copy_surface(struct gbuffer *gbuffer, size_t from, size_t to)
+{
+    struct image *const planes[] = {&gbuffer->position, &gbuffer->endpoint, &gbuffer->phong};
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
+        for (int channel = 0; channel < planes[i]->channels; channel++) {
+            int width = planes[i]->width, column = (int)(from % (size_t)width), row = (int)(from / (size_t)width);
+            image_row(planes[i], channel, (int)(to / (size_t)width))[to % (size_t)width] =
+                image_row(planes[i], channel, row)[column];
+        }
+}
+
+/* The aperture sees glossy surfaces beyond the silhouettes that its centre sees: there they have a, b and the exponent of the
+ * nearest glossy pixel. */
+static enum result widen_surfaces(struct gbuffer *gbuffer, struct error *err)
+{
+    const int width = gbuffer->phong.width, height = gbuffer->phong.height;
+    const size_t count = (size_t)width * (size_t)height;
+    size_t *queue = malloc(count * sizeof *queue), first = 0, end = 0;
+    bool *reached = calloc(count, sizeof *reached);
+    enum result result = queue && reached ? RESULT_OK : error_memory(err, (double)count * sizeof *queue);
+    for (size_t i = 0; !result && i < count; i++)
+        if (image_row(&gbuffer->phong, 0, (int)(i / (size_t)width))[i % (size_t)width] > 0) {
+            reached[i] = true;
+            queue[end++] = i;
+        }
+    while (!result && first < end) {
+        size_t from = queue[first++];
+        int x = (int)(from % (size_t)width), y = (int)(from / (size_t)width);
+        for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < height; v++)
+            for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < width; u++) {
+                size_t to = (size_t)v * (size_t)width + (size_t)u;
+                if (reached[to] || !any_nonzero(&gbuffer->specular, u, v))
+                    continue;
+                reached[to] = true;
+                copy_surface(gbuffer, from, to);
+                queue[end++] = to;
+            }
+    }
+    free(queue);
+    free(reached);
+    return result;
+}
+
 /* Where nothing is glossy a is 0 and so is b: the passes file holds what the filter needs. */
 static void clear_unused(struct gbuffer *gbuffer)
 {
@@ -304,7 +396,7 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     enum result result = pass_images_radiance(images, PASS_BASE, &gbuffer->base, err);
     if (result || !images->scene->glossy)
         return result ? result : make_dull(gbuffer, err);
-    if (pass_needed(images->scene, PASS_EXPONENT))
+    if (pass_exponents_differ(images->scene))
         result = read_codes(images, PASS_EXPONENT, &codes, err);
     if (!result && pass_needed(images->scene, PASS_EXPONENT_MEAN))
         result = read_codes(images, PASS_EXPONENT_MEAN, &means, err);
@@ -327,13 +419,21 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     if (!result)
         result = alloc_exponents(gbuffer, &codes, err);
     if (!result)
+        scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
+    if (!result && images->scene->focal_blur && same_size(&gbuffer->specular, &gbuffer->reflectance))
+        result = divide_specular(images, gbuffer, err);
+    if (!result)
         result = check_sizes(images, gbuffer, &directions, err);
     if (!result) {
         fill_exponents(gbuffer, images->scene->exponent, &codes, &means);
-        unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
-        scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
+        if (!images->scene->focal_blur)
+            unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
         eye_find(gbuffer, &directions);
+        if (images->scene->focal_blur)
+            result = widen_surfaces(gbuffer, err);
+    }
+    if (!result) {
         clear_unused(gbuffer);
         note_invisible(gbuffer, images->name, note);
         if (images->subsample > 1)

@@ -17,6 +17,11 @@ static const char end_mirror[] = "povgloss_dark()\n"
                                  "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
 static const char end_haze[] = "povgloss_dark()\n"
                                "  #if (povgloss_phong >= 0 | povgloss_reflects) reflection { 0 } #end";
+/* The same where a glossy finish keeps its reflectivity: any other reflects something next to white (to the power 1e-6), in the
+ * haze as well. */
+#define PLAIN_WHITE "#else #if (povgloss_reflects) reflection_exponent 1e6 #end #end"
+static const char end_reflection[] = "povgloss_dark()\n  #if (povgloss_phong >= 0) reflection_exponent 1\n  " PLAIN_WHITE;
+static const char end_haze_of_reflection[] = "povgloss_dark()\n  #if (povgloss_phong >= 0) reflection { 0 }\n  " PLAIN_WHITE;
 /* The sky is next to black, as a total reflection shows it, which isn't glossy. POV-Ray takes what a finish reflects to the
  * power 1/exponent: 20 makes one half of the sky, 0.001 nothing, and leaves the reflectivity for a later Gloss(). */
 static const char end_reflectance[] = "povgloss_dark()\n"
@@ -53,19 +58,23 @@ const struct pass pass_table[PASS_COUNT] = {
                              .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
+                       .glossy_part = true,
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
     [PASS_HAZE] = {.name = "haze",
+                   .glossy_part = true,
                    .mirror_colour = mirror_white,
                    .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                    .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_haze}},
     [PASS_REFLECTANCE] = {.name = "reflectance",
+                          .glossy_part = true,
                           .full_size = true,
                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
                           .second = {.copy = -1},
                           .trailer = sky_half},
     [PASS_POSITION] = {.name = "position",
+                       .glossy_part = true,
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
@@ -73,6 +82,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                        .second = {.copy = -1}},
     [PASS_POSITION_LOW] = {.name = "position-low",
+                           .glossy_part = true,
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
@@ -80,6 +90,7 @@ const struct pass pass_table[PASS_COUNT] = {
                            .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                            .second = {.copy = -1}},
     [PASS_ENDPOINT] = {.name = "endpoint",
+                       .glossy_part = true,
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
@@ -89,6 +100,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .coded_sky = true},
     [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
+                           .glossy_part = true,
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
@@ -125,6 +137,7 @@ const struct pass pass_table[PASS_COUNT] = {
                   .first = {.copy = SCENE_COPY_PLAIN, .modifiers = ""},
                   .second = {.copy = -1}},
     [PASS_MIRROR] = {.name = "mirror",
+                     .glossy_part = true,
                      .codes = true,
                      .technical = true,
                      .digits = POSITION_DIGITS_HIGH,
@@ -133,6 +146,7 @@ const struct pass pass_table[PASS_COUNT] = {
                      .second = {.copy = -1},
                      .coded_sky = true},
     [PASS_MIRROR_LOW] = {.name = "mirror-low",
+                         .glossy_part = true,
                          .codes = true,
                          .technical = true,
                          .digits = POSITION_DIGITS_LOW,
@@ -284,9 +298,9 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
                          choice->automatic ? "(povgloss_s.z >= 0 ? povgloss_s.z : povgloss_all)" : "povgloss_all");
 }
 
-static bool is_base(const struct pass *pass)
+static bool is_base(const struct scene_part *part)
 {
-    return pass == &pass_table[PASS_BASE];
+    return part->copy == SCENE_COPY_BASE || part->copy == SCENE_COPY_BASE_FIRST || part->copy == SCENE_COPY_BASE_SECOND;
 }
 
 /* A finish with a Gloss_Map has an exponent from povgloss_painted on in its state. Where exponents are drawn each map becomes
@@ -435,7 +449,7 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                part->placed_once ? "object { povgloss_object }" : "",
                                part->placed_once ? "#if (povgloss_depth = 0) povgloss_modifiers() } #end" : "",
                                part->placed_once ? "#if (povgloss_depth = 0) union { povgloss_nothing() #end" : "");
-    if (!result && !is_base(pass))
+    if (!result && !is_base(part))
         result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { povgloss_dark() } }\n", err);
     return result;
 }
@@ -470,9 +484,11 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
         free(name);
         return result;
     }
+    /* Objects of a union that have no interior of their own share one, which is as hollow as the last of them: where it is,
+     * the haze fills their hollow ones. */
     if (!result)
-        result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n", part->modifiers,
-                               scene->atmosphere ? " hollow" : "");
+        result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n",
+                               scene->atmosphere ? "povgloss_nothing() " : "", part->modifiers);
     if (!result && part->coded)
         result = add_coding_texture(pass, text, err);
     if (!result)
@@ -513,22 +529,28 @@ static bool scene_mirrors_gloss(const struct scene *scene)
     return scene->plain_mirrors && (!scene->choice->all || may_hold_clear(scene));
 }
 
-/* The base pass needs its second copy only there, and where the light counts that a glossy surface throws onto others. Light
- * under a surface is lost where a second copy of the surface lies on it. */
-static bool has_second_part(const struct scene *scene, enum pass_id id)
+struct pass pass_of(const struct scene *scene, enum pass_id id)
 {
-    return pass_table[id].second.copy >= 0 &&
-           (id != PASS_BASE ||
-            (scene->glossy && !scene->limits[SCENE_LIMIT_SUBSURFACE].line &&
-             (scene_mirrors_gloss(scene) || scene->radiosity)));
-}
-
-static struct scene_part first_part(const struct scene *scene, enum pass_id id)
-{
-    struct scene_part part = pass_table[id].first;
-    if (id == PASS_BASE && !has_second_part(scene, id))
-        part = (struct scene_part){.copy = SCENE_COPY_BASE, .finish_end = end_base};
-    return part;
+    struct pass pass = pass_table[id];
+    /* The second copy is needed only where a glossy surface is seen in a mirror, and where the light counts that it throws
+     * onto others. Light under a surface is lost where a second copy of the surface lies on it. */
+    bool doubled = scene->glossy && !scene->limits[SCENE_LIMIT_SUBSURFACE].line &&
+                   (scene_mirrors_gloss(scene) || scene->radiosity);
+    if (id == PASS_BASE && !doubled) {
+        pass.first = (struct scene_part){.copy = SCENE_COPY_BASE, .finish_end = end_base};
+        pass.second.copy = -1;
+    }
+    /* An aperture mixes what several points of the glossy surfaces reflect, each by its own reflectivity, and the sky. */
+    if (scene->focal_blur && (id == PASS_SPECULAR || id == PASS_HAZE)) {
+        pass.full_size = true;
+        pass.mirror_colour = NULL;
+        pass.second.copy = SCENE_COPY_REFLECTION;
+        pass.second.finish_end = id == PASS_HAZE ? end_haze_of_reflection : end_reflection;
+    }
+    /* It also sees glossy surfaces beyond the silhouettes of the exponent pass, which has none. */
+    if (scene->focal_blur && pass.full_size)
+        pass.glossy_part = false;
+    return pass;
 }
 
 enum result pass_discovery_text(const struct scene *scene, struct buffer *text, struct error *err)
@@ -565,38 +587,37 @@ bool pass_is_verbatim(const struct scene *scene, enum pass_id id)
 
 enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text, struct error *err)
 {
-    const struct pass *pass = &pass_table[id];
-    struct scene_part first = first_part(scene, id);
+    const struct pass pass = pass_of(scene, id);
     enum result result = RESULT_OK;
     if (pass_is_verbatim(scene, id))
         return buffer_add(text, scene->files[0].source.data, scene->files[0].source.size, err);
     if (scene->version > 0)
         result = buffer_printf(text, err, "#version %.9g;\n", scene->version);
-    if (!result && pass->technical)
+    if (!result && pass.technical)
         result = buffer_add_text(text, "global_settings { assumed_gamma 1.0 }\n", err);
     if (!result)
         result = buffer_add_text(
-            text, "#macro povgloss_nothing() sphere { 0, 1e-6 no_image no_reflection no_shadow no_radiosity } #end\n", err);
+            text, "#macro povgloss_nothing() sphere { 0, 1e-6 hollow no_image no_reflection no_shadow no_radiosity } #end\n", err);
     if (!result)
         result = buffer_add_text(text, "#declare povgloss_default = texture { pigment { rgb 0 } };\n", err);
     /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
     if (!result)
-        result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass->full_size ? "" : "aperture 0");
+        result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass.full_size ? "" : "aperture 0");
     if (!result)
         result = add_photon_macro(id, text, err);
     if (!result)
         result = scene_save_names(scene, text, err);
     if (!result)
-        result = add_part(scene, pass, &first, text, err);
-    if (!result && (has_second_part(scene, id) || id == PASS_PROBE))
+        result = add_part(scene, &pass, &pass.first, text, err);
+    if (!result && (pass.second.copy >= 0 || id == PASS_PROBE))
         result = add_separation(scene, text, err);
-    if (!result && has_second_part(scene, id))
-        result = add_part(scene, pass, &pass->second, text, err);
-    if (!result && pass->coded_sky)
-        result = add_coded_sky(pass, text, err);
-    if (!result && pass->trailer)
-        result = buffer_add_text(text, pass->trailer, err);
-    if (!result && pass->technical)
+    if (!result && pass.second.copy >= 0)
+        result = add_part(scene, &pass, &pass.second, text, err);
+    if (!result && pass.coded_sky)
+        result = add_coded_sky(&pass, text, err);
+    if (!result && pass.trailer)
+        result = buffer_add_text(text, pass.trailer, err);
+    if (!result && pass.technical)
         result = buffer_add_text(text, "global_settings { max_trace_level 20 adc_bailout 1/255 }\n", err);
     return result;
 }
@@ -610,20 +631,25 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_PROBE || pass_is_mirror(id))
         return false;
-    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
-        return false;
     if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;
-    if (id == PASS_HAZE && !scene->atmosphere)
+    /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye, too. */
+    if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line && !scene->focal_blur)
         return false;
     return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
+}
+
+bool pass_exponents_differ(const struct scene *scene)
+{
+    return scene->exponent < 0 || scene->mixes || scene->refracts;
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])
 {
     if (pass_is_verbatim(scene, id))
         return;
-    needed[first_part(scene, id).copy] = true;
-    if (has_second_part(scene, id))
-        needed[pass_table[id].second.copy] = true;
+    const struct pass pass = pass_of(scene, id);
+    needed[pass.first.copy] = true;
+    if (pass.second.copy >= 0)
+        needed[pass.second.copy] = true;
 }

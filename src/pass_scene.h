@@ -50,6 +50,7 @@ struct pass {
     bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
     bool smooth;    /* antialiased, whatever the user asks */
+    bool glossy_part; /* of use where something glossy is, as the exponent pass knows; else the whole picture is rendered */
     bool technical; /* colours are numbers: linear, without media or radiosity */
     enum position_digits digits;
     const char *mirror_colour; /* reflectivity of its glossy finishes */
@@ -61,10 +62,17 @@ struct pass {
 
 extern const struct pass pass_table[PASS_COUNT];
 
+/* The pass as this scene takes it. */
+struct pass pass_of(const struct scene *scene, enum pass_id id);
+
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
- * where it has one; exponents where there are several (antialiased, too, where one is painted), where a texture may mix a
- * glossy surface with another one, or where a total reflection may be taken for one. */
+ * where it has one, or media, or focal blur, which mixes the sky into glossy surfaces; antialiased exponents where one is
+ * painted. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
+
+/* Whether the exponent pass says more than where something is glossy: there are several exponents, a texture may mix a
+ * glossy surface with another one, or a total reflection may be taken for one. */
+bool pass_exponents_differ(const struct scene *scene);
 
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are
  * loaded as in the other passes. */

@@ -2,14 +2,15 @@
  *
  *   base         the scene with the glossy finishes' reflection switched off
  *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors and the rest is black, mirrored
- *                rays see the scene itself
- *   haze         where there is fog, a rainbow or media: the same without mirrors, which is what they add before the glossy
+ *                rays see the scene itself; with focal blur times the reflectance, averaged over the aperture
+ *   haze         where there is fog, a rainbow, media or focal blur: the same without mirrors, which is what they add before the glossy
  *                surface to the specular pass
  *   reflectance  glossy surfaces with their own reflection and no shading, under a sky of one half
  *   position     a, coded as a colour (position_code.h)
  *   endpoint     b: mirrors seen by the camera, coded positions seen by mirrored rays, coded directions where they miss
  *   direction    the camera's rays, coded: they give the eye and the view angle whatever the camera
- *   exponent     the Phong exponent, where the scene has more than one
+ *   exponent     the Phong exponent; the passes that only the reflection needs wait for it, to be rendered where
+ *                something is glossy alone
  *   exponent-mean  the same antialiased, where an exponent is painted, so that its edges are as smooth as the picture's
  *   own          POV-Ray's own picture, small: what the parts must add up to
  */
@@ -20,6 +21,7 @@
 #include "povray.h"
 #include "povray_switches.h"
 #include "scene.h"
+#include "timings.h"
 
 struct passes_options {
     const char *scene;  /* path of the .pov file */
@@ -34,9 +36,11 @@ struct passes_options {
     int timeout_s;        /* for each POV-Ray process; 0: none */
     bool check;           /* POV-Ray's own picture is rendered, too, for passes_check_sum */
     bool rays;            /* the gbuffer gets the eye's rays and the mirrored ones; not with subsampling */
+    bool sandbox;         /* POV-Ray runs in one (sandbox.h) */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;
+    struct timings *timings; /* gets a row for each step; NULL: none */
 };
 
 struct passes;

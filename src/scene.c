@@ -188,13 +188,13 @@ static const struct limit {
     [SCENE_LIMIT_REFLECTION_EXPONENT] = {"reflection_exponent", "finish",
                                          "the reflection_exponent of a glossy finish counts as 1"},
     [SCENE_LIMIT_IRID] = {"irid", "finish", "irid in a glossy finish doesn't tint its reflection"},
-    [SCENE_LIMIT_FOCAL_BLUR] = {"aperture", "camera", "focal blur leaves glossy reflections as sharp as they are"},
     [SCENE_LIMIT_SAVED_PHOTONS] = {"save_file", "photons",
                                    "photons that the scene saves aren't reflected by glossy surfaces"},
     [SCENE_LIMIT_SUBSURFACE] = {"subsurface", "global_settings",
                                 "with subsurface light, glossy surfaces that are seen in a mirror reflect nothing there"},
     [SCENE_LIMIT_MEDIA] = {"media", "interior",
-                           "media in an object neither dim nor tint the reflection of a glossy surface in or behind it"},
+                           "media in an object that the camera is outside of neither dim nor tint the reflection of a glossy "
+                           "surface in or behind it"},
 };
 
 const char *scene_limit_text(enum scene_limit limit)

@@ -32,7 +32,6 @@ enum scene_limit {
     SCENE_LIMIT_EXPONENT,
     SCENE_LIMIT_REFLECTION_EXPONENT,
     SCENE_LIMIT_IRID,
-    SCENE_LIMIT_FOCAL_BLUR,
     SCENE_LIMIT_SAVED_PHOTONS,
     SCENE_LIMIT_SUBSURFACE,
     SCENE_LIMIT_MEDIA,
@@ -64,7 +63,7 @@ struct scene {
     double version;        /* of the scene's first #version; 0: none */
     double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
     int gammas;            /* how often an assumed_gamma is written anywhere */
-    bool focal_blur;        /* some camera has an aperture */
+    bool focal_blur;       /* some camera has an aperture */
     bool photons;           /* its global_settings may shoot photons */
     struct scene_place limits[SCENE_LIMIT_COUNT]; /* the first place that one is about */
     const char *atmosphere; /* "fog", "rainbow" or "media" where the scene has one at top level, else NULL */

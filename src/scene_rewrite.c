@@ -46,6 +46,7 @@ static const struct rules copy_rules[SCENE_COPY_COUNT] = {
     [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .marks = true, .pigments = true, .covers = true,
                                   .technical = true},
     [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .marks = true, .covers = true},
+    [SCENE_COPY_REFLECTION] = {"reflection", STATEMENTS_DROP, .marks = true, .covers = true},
     [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .coded = true, .covers = true, .technical = true},
     [SCENE_COPY_DISCOVERY] = {"discovery", STATEMENTS_STAY, .lights = true, .discovery = true},
 };
@@ -652,7 +653,7 @@ static enum result take_states(struct writer *writer, int directive, struct erro
 {
     const struct scene_file *file = writer->file;
     int macro = directive + 1, position = 0;
-    if (!is_directive(file, directive, "macro") || !has_fact(file, macro, NAME_SURFACE_MACRO))
+    if (!is_directive(file, directive, "macro") || !has_fact(file, macro, NAME_SURFACE_MACRO) || !is_call(file, macro))
         return RESULT_OK;
     int last = file->list.tokens[macro + 1].match;
     enum result result = insert_before(writer, last, "", err);
