@@ -85,7 +85,7 @@ static void correct(const struct field *field, int x, int y)
         if (tap->phong > 0)
             least = fmin(least, tan_square(own->a, direction, tap));
     }
-    double spread = 2 / (double)own->phong + (isinf(least) ? 0 : 9 * least / field->rays);
+    double spread = 2 / (double)own->phong + (isinf(least) ? 0 : 9 * least / (field->rays * field->rays));
     const int reach = (int)ceil(field->tent) - 1;
     for (int v = y - reach; v <= y + reach; v++)
         for (int u = x - reach; u <= x + reach; u++) {

@@ -5,12 +5,12 @@
  * variate of M:
  *
  *   L(x) = F(x) + sum w n (M - F)(x') / sum w n
- *   w    = (1 - |dx|/T)+ (1 - |dy|/T)+ exp(-tan^2(theta) / (2 s^2)),  T = 1 + 9/sqrt(N) pixels,  s^2 = 2/p + 9 g^2/N
+ *   w    = (1 - |dx|/T)+ (1 - |dy|/T)+ exp(-tan^2(theta) / (2 s^2)),  T = 1 + 9/sqrt(N) pixels,  s^2 = 2/p + (3g/N)^2
  *
  * n: how many of the pixel's rays count; theta: the angle at a(x) between b(x) and b(x'), as in the filter; g: its least
  * tan to one of the four next pixels. exp(-theta^2 p / 4) is how much the lobes of x and x' have in common; a lobe of less
- * than 3/sqrt(N) pixels counts as one of these. T and s make the number of rays in the mean grow slowly with N, and its
- * window shrink, so that L goes to the truth.
+ * than 3/N pixels counts as one of these, for few rays need many neighbours. T and s make the number of rays in the mean
+ * grow slowly with N, and its window shrink, so that L goes to the truth.
  */
 #ifndef POVGLOSS_CONTROL_VARIATE_H
 #define POVGLOSS_CONTROL_VARIATE_H

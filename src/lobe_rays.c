@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-enum { PIXELS_AT_ONCE = 1 << 18 };
+enum { PIXELS_AT_ONCE = 1 << 16 };
 
 enum result lobe_rays_measure(const struct command *command, struct passes *passes, int frame, struct probes *probes,
                               struct error *err)
@@ -15,7 +15,7 @@ enum result lobe_rays_measure(const struct command *command, struct passes *pass
         struct image image = {0};
         int width, height;
         if (round != probes->rays && !command->filter.quiet)
-            fprintf(stderr, "povgloss: %d probes of %ld rays\n", probes_open(probes), probes->rays);
+            fprintf(stderr, "povgloss: %ld rays at each of %d points\n", probes->rays, probes_open(probes));
         round = probes->rays;
         result = probes_view(probes, &view, &width, &height, err);
         if (!result)

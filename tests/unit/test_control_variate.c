@@ -22,8 +22,8 @@ static void make(struct gbuffer *gbuffer, struct image *glossy)
                 image_row(&gbuffer->rays, i, y)[x] = 1.25f;
                 image_row(glossy, i, y)[x] = 1;
             }
-            image_row(&gbuffer->position, 0, y)[x] = image_row(&gbuffer->endpoint, 0, y)[x] = 0.01f * (float)x;
-            image_row(&gbuffer->position, 1, y)[x] = image_row(&gbuffer->endpoint, 1, y)[x] = 0.01f * (float)y;
+            image_row(&gbuffer->position, 0, y)[x] = image_row(&gbuffer->endpoint, 0, y)[x] = 0.1f * (float)x;
+            image_row(&gbuffer->position, 1, y)[x] = image_row(&gbuffer->endpoint, 1, y)[x] = 0.1f * (float)y;
             image_row(&gbuffer->endpoint, 2, y)[x] = 5;
             image_row(&gbuffer->endpoint, 3, y)[x] = 1;
             image_row(&gbuffer->phong, 0, y)[x] = 100;
@@ -63,7 +63,7 @@ static void control_variate__single_residual__weight_of_the_formula(void **state
     image_row(&gbuffer.rays, 0, 15)[20] = 9;
     image_row(&gbuffer.rays, 3, 15)[20] = 3;
     assert_ok(control_variate(&gbuffer, NAN, 1, &glossy, &err), err);
-    const double tent = 1 + 9 / sqrt(4), least = pow(0.01 / 5, 2), spread = 2 / 100.0 + 9 * least / 4;
+    const double tent = 1 + 9 / sqrt(4), least = pow(0.1 / 5, 2), spread = 2 / 100.0 + 9 * least / 16;
     double own = 0, sum = 0;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
