@@ -26,9 +26,12 @@ LDFLAGS += -fsanitize=$(SANITIZE)
 endif
 
 PACKAGES := gcc binutils make libc6-dev pkg-config povray povray-includes povray-examples libopenexr-dev libpng-dev \
-            libcmocka-dev openimageio-tools openexr mandoc dpkg-dev python3-venv perl coreutils findutils bubblewrap
+            libcmocka-dev libsdl2-dev xvfb xdotool imagemagick openimageio-tools openexr mandoc dpkg-dev python3-venv perl \
+            coreutils findutils bubblewrap
 
-PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(wildcard src/main_*.c))
+PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(filter-out src/main_view.c,$(wildcard src/main_*.c)))
+# The window of glossfilter --view, where SDL2 is.
+VIEWER := $(BUILD)/lib/povgloss/view
 # The kernel is compiled once per instruction set from one source.
 ISAS := sse2 avx2 avx512
 KERNEL_OBJECTS := $(ISAS:%=$(BUILD)/obj/filter_kernel_%.o)
@@ -56,7 +59,7 @@ FUZZ_SECONDS := 60
 SCENES := $(patsubst povscenes/%.pov,build/scenes/%.png,$(wildcard povscenes/*.pov))
 
 .PHONY: all
-all: $(PROGRAMS) $(PRELOAD) $(INCLUDE) $(PUBLIC_LIBRARY) ## the programs povgloss and glossfilter, in build/bin
+all: $(PROGRAMS) $(PRELOAD) $(VIEWER) $(INCLUDE) $(PUBLIC_LIBRARY) ## the programs povgloss and glossfilter, in build/bin
 
 $(BUILD)/obj/filter_kernel_sse2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=sse2
 $(BUILD)/obj/filter_kernel_avx2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=avx2 -mavx2
@@ -86,6 +89,12 @@ $(BUILD)/tests/tools/faults.so: tests/tools/preload_faults.c
 $(PRELOAD) $(BUILD)/tests/tools/faults.so: $(FLAGS_STAMP)
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(filter-out -fsanitize=%,$(CFLAGS)) -fPIC -shared -o $@ $(filter %.c,$^) -ldl
+
+$(VIEWER): src/main_view.c $(LIBRARY) $(FLAGS_STAMP)
+	@mkdir -p $(@D)
+	@! pkg-config --exists sdl2 || { set -x; \
+	 $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MMD -MP -MF $(BUILD)/obj/main_view.d -MT $@ -o $@ $< $(LIBRARY) \
+	     $$(pkg-config --cflags --libs sdl2) $(LDLIBS); }
 
 $(LIBRARY): $(LIB_OBJECTS)
 	rm -f $@
@@ -150,6 +159,10 @@ build/mitsuba/bin/python:
 	python3 -m venv build/mitsuba
 	build/mitsuba/bin/pip install -q --disable-pip-version-check --timeout 20 --retries 2 mitsuba numpy || \
 	     { rm -rf build/mitsuba; exit 1; }
+
+.PHONY: slurm
+slurm: ## install Slurm and GNU parallel, for the test of scripts/povgloss-array.sbatch
+	$(MAKE) --no-print-directory deps PACKAGES='slurm-wlm parallel'
 
 .PHONY: demo
 demo: build/demo.png ## render the demo scene
@@ -220,7 +233,7 @@ corpus: $(PROGRAMS) ## run every scene of povray-examples as it is; the table is
 # What is installed, by the folder under PREFIX.
 INSTALLED_bin := $(PROGRAMS)
 INSTALLED_lib := $(PUBLIC_LIBRARY)
-INSTALLED_lib/povgloss := $(PRELOAD)
+INSTALLED_lib/povgloss := $(PRELOAD) $(VIEWER)
 INSTALLED_lib/pkgconfig := $(BUILD)/lib/pkgconfig/libgloss.pc
 INSTALLED_include := src/gloss.h
 INSTALLED_share/povgloss/include := $(INCLUDE)
@@ -240,7 +253,9 @@ $(BUILD)/lib/pkgconfig/libgloss.pc:
 install: all $(INSTALLED_lib/pkgconfig) ## install below PREFIX (/usr/local); DESTDIR goes before it
 	@set -e; $(foreach folder,$(INSTALL_FOLDERS), \
 	    install -d "$(DESTDIR)$(PREFIX)/$(folder)"; \
-	    install -m $(if $(filter bin,$(folder)),755,644) $(INSTALLED_$(folder)) "$(DESTDIR)$(PREFIX)/$(folder)";)
+	    install -m $(if $(filter bin,$(folder)),755,644) $(wildcard $(INSTALLED_$(folder))) \
+	        "$(DESTDIR)$(PREFIX)/$(folder)";)
+	@[ ! -e $(VIEWER) ] || chmod 755 "$(DESTDIR)$(PREFIX)/lib/povgloss/view"
 	@echo "Installed below $(DESTDIR)$(PREFIX)"
 
 .PHONY: uninstall

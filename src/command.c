@@ -65,6 +65,7 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
         {"--jobs", NULL, &command->passes.jobs, 0, 64},
         {"--timeout", NULL, &command->passes.timeout_s, 0, 10000000},
         {"--subsample", NULL, &command->passes.subsample, 1, 4},
+        {"--rays", NULL, &command->rays, 0, 4096},
     };
     const char *value;
     enum result result = cli_value(argc, argv, index, "--gloss", &value, err);
@@ -84,6 +85,8 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
             result = cli_integer(options[i].name, value, options[i].low, options[i].high, options[i].number, err);
         if (!result && command->passes.subsample == 3)
             result = error_set(err, RESULT_USAGE, "--subsample 3: 1, 2 or 4 is allowed");
+        if (!result && command->rays && command->kind > KIND_PASSES)
+            result = error_set(err, RESULT_USAGE, "--rays is an option of povgloss render and povgloss passes");
         return result;
     }
     return RESULT_OK;
@@ -226,6 +229,10 @@ static enum result check_command(struct command *command, const struct povray_sw
                          output_file_name(command->output), count);
     if (step > 1 && (switches->width == 0 || switches->height == 0 || switches->width % step || switches->height % step))
         return error_set(err, RESULT_USAGE, "--subsample %d needs +W and +H, both multiples of %d", step, step);
+    const struct filter_options *filter = &command->filter.filter;
+    if (command->rays && (step > 1 || (filter->phong_override && !(filter->phong > 0))))
+        return error_set(err, RESULT_USAGE, "--rays needs every pixel and an exponent above 0: leave out %s",
+                         step > 1 ? "--subsample" : "--phong 0");
     if (command->kind == KIND_PASSES) {
         enum image_format format;
         struct error ignored;
@@ -315,6 +322,7 @@ enum result command_parse(int argc, char **argv, struct command *command, struct
     command->passes.scene = command->path;
     command->passes.switches = switches;
     command->passes.reads = command->depfile;
+    command->passes.rays = command->rays > 0;
     command->passes.check = !command->no_check && !command->filter.quiet && command->kind <= KIND_PASSES;
     command->passes.frames = frames_plan(&switches->frames);
     return result ? result : check_command(command, switches, err);

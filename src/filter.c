@@ -6,6 +6,7 @@
 #include "filter.h"
 
 #include "bands.h"
+#include "control_variate.h"
 #include "filter_kernel.h"
 #include "interrupt.h"
 #include "lobe.h"
@@ -645,6 +646,8 @@ static enum result check(const struct gbuffer *gbuffer, const struct filter_opti
         result = check_plane(&gbuffer->endpoint, "endpoint", 4, size, err);
     if (result == RESULT_OK && gbuffer->phong.pixels)
         result = check_plane(&gbuffer->phong, "phong", 1, size, err);
+    if (result == RESULT_OK && gbuffer->rays.pixels)
+        result = check_plane(&gbuffer->rays, "rays", 4, size, err);
     if (result == RESULT_OK && gbuffer->reflectance.pixels)
         result = check_plane(&gbuffer->reflectance, "reflectance", 3, size, err);
     if (result != RESULT_OK)
@@ -737,6 +740,8 @@ enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_opt
         result = bands_run(height, 1, threads, paper ? blur_paper : blur_best, &filter, err);
     if (result == RESULT_OK && atomic_load(&filter.out_of_memory))
         result = error_memory(err, (double)(FILTER_SEE_COLUMNS(filter.taps.width) * 3 * FILTER_LANES * sizeof(float)));
+    if (result == RESULT_OK && gbuffer->rays.pixels)
+        result = control_variate(gbuffer, options->phong_override ? options->phong : NAN, threads, glossy, err);
     if (result == RESULT_OK && gbuffer->reflectance.pixels)
         result = bands_run(height, 16, threads, edges, &filter, err);
     if (result == RESULT_OK && measure) {

@@ -50,6 +50,7 @@ struct filter_options filter_options_default(void);
  *   would no longer reflect.
  * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of
  *   the lobe, and (16 / n)^2 where the lobe holds n pixels only.
+ * With rays in the gbuffer the result is then corrected by them: see control_variate.h.
  * Confidence, 0 to 1: the sum of f over the lobe's integral, the share of the lobe that what is seen covers.
  *
  * Glossy is a pixel whose exponent is above 0 (with no phong plane: whatever the options say, 0 included), whose

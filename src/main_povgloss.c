@@ -37,6 +37,8 @@ static const char help[] =
     "  --resume             skip every image whose file is there already\n"
     "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
     "                       interpolate; needs +W and +H\n"
+    "  --rays N             trace N further rays of the lobe at every glossy pixel: what no mirrored ray\n"
+    "                       meets is in the blur, and the error falls with N (default 0)\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
     "  --timeout SECONDS    end a POV-Ray process that runs longer, and fail; 0: never (default)\n"
     "  --sandbox            run POV-Ray under bubblewrap: no network, no files but the scene's folders (read\n"

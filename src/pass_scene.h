@@ -21,6 +21,7 @@ enum pass_id {
     PASS_ENDPOINT_LOW,
     PASS_DIRECTION,
     PASS_EXPONENT,
+    PASS_EXPONENT_MEAN,
     PASS_OWN, /* POV-Ray's own picture of the scene as it is, small and without antialiasing */
     PASS_MIRROR, /* the mirrored rays' directions, for probes: an endpoint may lie behind glass that bends the ray */
     PASS_MIRROR_LOW,
@@ -30,8 +31,9 @@ enum pass_id {
 
 #define PASS_PHOTONS_FILE "photons.ph"
 /* Left by the base pass in its folder: index of the file and line of the first object that holds something transparent and
- * something glossy. */
-#define PASS_MIXED_FILE "mixed.txt"
+ * something glossy, and of the first that holds a transparent mirror without gloss. */
+#define PASS_MIXED_FILE "povgloss_mixed.txt"
+#define PASS_GLASS_FILE "povgloss_glass.txt"
 #define PASS_PROBE_VIEW "view.inc"
 
 /* A copy of the scene in a union. */
@@ -48,6 +50,8 @@ struct pass {
     const char *name;
     bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
+    bool smooth;    /* antialiased, whatever the user asks */
+    bool glossy_part; /* of use where something glossy is, as the exponent pass knows; else the whole picture is rendered */
     bool technical; /* colours are numbers: linear, without media or radiosity */
     enum position_digits digits;
     const char *mirror_colour; /* reflectivity of its glossy finishes */
@@ -63,9 +67,13 @@ extern const struct pass pass_table[PASS_COUNT];
 struct pass pass_of(const struct scene *scene, enum pass_id id);
 
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
- * where it has one, or media, or focal blur, which mixes the sky into glossy surfaces; exponents where there are several,
- * where a texture may mix a glossy surface with another one, or where a total reflection may be taken for one. */
+ * where it has one, or media, or focal blur, which mixes the sky into glossy surfaces; antialiased exponents where one is
+ * painted. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
+
+/* Whether the exponent pass says more than where something is glossy: there are several exponents, a texture may mix a
+ * glossy surface with another one, or a total reflection may be taken for one. */
+bool pass_exponents_differ(const struct scene *scene);
 
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are
  * loaded as in the other passes. */

@@ -23,6 +23,8 @@
 
 #define EMPTY_INI "empty.ini"
 
+enum { POVRAY_BLOCK = 32 }; /* pixels a side of what POV-Ray renders at a time */
+
 struct passes {
     const struct passes_options *options;
     struct scene scene;
@@ -269,6 +271,12 @@ static bool file_depends_on_size(const struct scene_file *file)
     return false;
 }
 
+static enum result add_size(struct text_list *arguments, int width, int height, struct error *err)
+{
+    enum result result = text_list_add(arguments, err, "+W%d", width);
+    return result ? result : text_list_add(arguments, err, "+H%d", height);
+}
+
 /* POV-Ray's own picture is small, unless the scene isn't the same in another size. */
 static enum result add_own_size(const struct passes *passes, struct text_list *arguments, struct error *err)
 {
@@ -281,8 +289,7 @@ static enum result add_own_size(const struct passes *passes, struct text_list *a
         depends |= file_depends_on_size(&passes->scene.files[i]);
     if (!depends)
         picture_check_size(width, height, &width, &height);
-    enum result result = text_list_add(arguments, err, "+W%d", width);
-    return result ? result : text_list_add(arguments, err, "+H%d", height);
+    return add_size(arguments, width, height, err);
 }
 
 /* The user's switches first, then those on which the pass depends: POV-Ray takes the last one. */
@@ -305,16 +312,16 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     /* Reflectivities are small, and their edges show as much as those of the picture. */
     if (!result && pass.full_size && (id == PASS_REFLECTANCE || id == PASS_SPECULAR) && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
+    static const char *const smooth[] = {"+A0.0", "+AM1", "+R3", "-J", "Antialias_Gamma=1.0", NULL};
+    for (int i = 0; !result && pass.smooth && smooth[i]; i++)
+        result = text_list_add(arguments, err, "%s", smooth[i]);
     if (!result && pass.technical)
         result = text_list_add(arguments, err, "+Q8");
     static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
     for (int i = 0; !result && id == PASS_PHOTONS && one_pixel[i]; i++)
         result = text_list_add(arguments, err, "%s", one_pixel[i]);
-    if (!result && options->subsample > 1 && !pass.full_size) {
-        result = text_list_add(arguments, err, "+W%d", switches->width / options->subsample);
-        if (!result)
-            result = text_list_add(arguments, err, "+H%d", switches->height / options->subsample);
-    }
+    if (!result && options->subsample > 1 && !pass.full_size)
+        result = add_size(arguments, switches->width / options->subsample, switches->height / options->subsample, err);
     return result;
 }
 
@@ -503,54 +510,131 @@ static enum result remove_left(const struct passes *passes, enum pass_id id, con
     return result;
 }
 
-/* Adds to *note where glass and something glossy are one object. */
-static enum result note_mixed(const struct passes *passes, struct error *note, struct error *err)
+/* What the base pass may have noted of an object. */
+static const struct {
+    const char *file, *text;
+} object_notes[] = {
+    {PASS_MIXED_FILE, "this object holds something transparent and something glossy: reflections inside the transparent part "
+                      "are left out; make them objects of their own"},
+    {PASS_GLASS_FILE, "a glossy surface reflects nothing where it is seen by a reflection in this object and then through "
+                      "something transparent"},
+};
+enum { OBJECT_NOTES = sizeof object_notes / sizeof *object_notes };
+
+/* Adds those to *note. */
+static enum result note_objects(const struct passes *passes, struct error *note, struct error *err)
 {
-    char *path;
-    enum result result = text_printf(&path, err, "%s/%s/" PASS_MIXED_FILE, passes->folder.path, pass_table[PASS_BASE].name);
-    FILE *stream = result ? NULL : fopen(path, "r");
-    int file, line;
-    if (stream && fscanf(stream, "%d %d", &file, &line) == 2 && file >= 0 && file < passes->scene.file_count) {
-        size_t length = strlen(note->text);
-        snprintf(note->text + length, sizeof note->text - length,
-                 "%s%s:%d: this object holds something transparent and something glossy: reflections inside the "
-                 "transparent part are left out; make them objects of their own",
-                 length ? "; " : "", passes->scene.files[file].path, line);
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < OBJECT_NOTES; i++) {
+        char *path;
+        result = text_printf(&path, err, "%s/%s/%s", passes->folder.path, pass_table[PASS_BASE].name, object_notes[i].file);
+        FILE *stream = result ? NULL : fopen(path, "r");
+        int file, line;
+        if (stream && fscanf(stream, "%d %d", &file, &line) == 2 && file >= 0 && file < passes->scene.file_count) {
+            size_t length = strlen(note->text);
+            snprintf(note->text + length, sizeof note->text - length, "%s%s:%d: %s", length ? "; " : "",
+                     passes->scene.files[file].path, line, object_notes[i].text);
+        }
+        if (stream)
+            fclose(stream);
+        free(path);
     }
-    if (stream)
-        fclose(stream);
-    free(path);
     return result;
+}
+
+static struct pass_images images_of(const struct passes *passes, const char *number)
+{
+    return (struct pass_images){.folder = passes->folder.path,
+                                .number = number,
+                                .name = passes->options->scene,
+                                .scene = &passes->scene,
+                                .subsample = passes->options->subsample,
+                                .rays = passes->options->rays};
+}
+
+/* Rows and columns to render; `left` and `top` count from 0. */
+static enum result add_window(struct text_list *arguments, int left, int top, int width, int height, struct error *err)
+{
+    enum result result = text_list_add(arguments, err, "+SC%d", left + 1);
+    if (!result)
+        result = text_list_add(arguments, err, "+EC%d", left + width);
+    if (!result)
+        result = text_list_add(arguments, err, "+SR%d", top + 1);
+    return result ? result : text_list_add(arguments, err, "+ER%d", top + height);
+}
+
+/* The jobs of a frame while they run. */
+struct run {
+    struct passes *passes;
+    int frame;
+    struct text_list arguments[PASS_COUNT];
+    char *folders[PASS_COUNT];
+};
+
+/* The exponent pass has ended: where it saw nothing glossy those that wait for it have nothing to do. */
+static enum result narrow(void *context, struct error *err)
+{
+    struct run *run = context;
+    struct passes *passes = run->passes;
+    char number[FRAMES_NUMBER_SIZE];
+    frames_number(&passes->options->frames, run->frame, number);
+    const struct pass_images images = images_of(passes, number);
+    struct image_window window;
+    enum result result = pass_images_glossy(&images, &window, err);
+    for (int i = 0; !result && i < passes->job_count; i++) {
+        const struct pass pass = pass_of(&passes->scene, passes->ids[i]);
+        if (!pass.glossy_part)
+            continue;
+        int step = pass.full_size ? images.subsample : 1;
+        /* POV-Ray antialiases block by block: the blocks are those of the whole picture. */
+        int left = (int)window.left * step, top = (int)window.top * step;
+        int more_left = left % POVRAY_BLOCK, more_top = top % POVRAY_BLOCK;
+        result = add_window(&run->arguments[i], left - more_left, top - more_top, window.width * step + more_left,
+                            window.height * step + more_top, err);
+        passes->jobs[i].arguments = run->arguments[i].texts;
+    }
+    return result;
+}
+
+static struct povray_job *job_of(struct passes *passes, enum pass_id id)
+{
+    for (int i = 0; i < passes->job_count; i++)
+        if (passes->ids[i] == id)
+            return &passes->jobs[i];
+    return NULL;
 }
 
 static enum result run_passes(struct passes *passes, int frame, struct error *err)
 {
     const struct passes_options *options = passes->options;
-    struct text_list arguments[PASS_COUNT] = {0};
-    char *folders[PASS_COUNT] = {0};
+    struct run run = {.passes = passes, .frame = frame};
     enum result result = RESULT_OK;
     for (int i = 0; !result && i < passes->job_count; i++) {
-        result = job_arguments(passes, passes->ids[i], frame, &arguments[i], err);
+        result = job_arguments(passes, passes->ids[i], frame, &run.arguments[i], err);
         if (!result)
-            result = text_printf(&folders[i], err, "%s/%s", passes->folder.path, pass_table[passes->ids[i]].name);
+            result = text_printf(&run.folders[i], err, "%s/%s", passes->folder.path, pass_table[passes->ids[i]].name);
         passes->jobs[i] = (struct povray_job){.name = pass_table[passes->ids[i]].name,
-                                              .folder = folders[i],
-                                              .arguments = arguments[i].texts,
+                                              .folder = run.folders[i],
+                                              .arguments = run.arguments[i].texts,
                                               .timeout_s = options->timeout_s};
     }
-    int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
-    int first = passes->ids[0] == PASS_PHOTONS; /* the others wait for it */
-    if (!result && first)
-        result = remove_left(passes, PASS_PHOTONS, PASS_PHOTONS_FILE, err);
-    if (!result)
-        result = remove_left(passes, PASS_BASE, PASS_MIXED_FILE, err);
-    if (!result && first)
-        result = povray_run(passes->jobs, 1, 1, passes->environment, no_progress, NULL, &failed, err);
-    if (!result) {
-        result = povray_run(passes->jobs + first, passes->job_count - first, at_once, passes->environment,
-                            options->progress, options->progress_context, &failed, err);
-        failed += failed >= 0 ? first : 0;
+    struct povray_job *photons = job_of(passes, PASS_PHOTONS), *exponent = job_of(passes, PASS_EXPONENT);
+    for (int i = 0; i < passes->job_count; i++) {
+        bool narrowed = !options->switches->partial && pass_of(&passes->scene, passes->ids[i]).glossy_part;
+        passes->jobs[i].after = narrowed ? exponent : &passes->jobs[i] != photons ? photons : NULL;
     }
+    if (exponent && !options->switches->partial) {
+        exponent->ended = narrow;
+        exponent->context = &run;
+    }
+    int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
+    if (!result && photons)
+        result = remove_left(passes, PASS_PHOTONS, PASS_PHOTONS_FILE, err);
+    for (int i = 0; !result && i < OBJECT_NOTES; i++)
+        result = remove_left(passes, PASS_BASE, object_notes[i].file, err);
+    if (!result)
+        result = povray_run(passes->jobs, passes->job_count, at_once, passes->environment, options->progress,
+                            options->progress_context, &failed, err);
     if (failed >= 0)
         result = report_failure(passes, &passes->jobs[failed], err);
     if (!result && !povray_is_other_version(&passes->jobs[0].messages, passes->version))
@@ -558,24 +642,8 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     add_timings(passes, passes->jobs, passes->job_count);
     povray_jobs_free(passes->jobs, passes->job_count);
     for (int i = 0; i < passes->job_count; i++) {
-        text_list_free(&arguments[i]);
-        free(folders[i]);
-    }
-    return result;
-}
-
-/* The size of the image, all of it. */
-static enum result add_size(struct text_list *arguments, int width, int height, struct error *err)
-{
-    const struct {
-        const char *format;
-        int value;
-    } switches[] = {{"+W%d", width}, {"+H%d", height}, {"+SC%d", 1}, {"+EC%d", width}, {"+SR%d", 1}, {"+ER%d", height}};
-    enum result result = RESULT_OK;
-    for (size_t i = 0; !result && i < sizeof switches / sizeof *switches; i++) {
-        char text[32];
-        snprintf(text, sizeof text, switches[i].format, switches[i].value);
-        result = text_list_add(arguments, err, "%s", text);
+        text_list_free(&run.arguments[i]);
+        free(run.folders[i]);
     }
     return result;
 }
@@ -588,6 +656,8 @@ static enum result run_view(const struct passes *passes, int frame, int width, i
     enum result result = job_arguments(passes, PASS_PROBE, frame, &arguments, err);
     if (!result)
         result = add_size(&arguments, width, height, err);
+    if (!result)
+        result = add_window(&arguments, 0, 0, width, height, err);
     if (!result)
         result = text_printf(&folder, err, "%s/%s", passes->folder.path, pass_table[PASS_PROBE].name);
     struct povray_job job = {
@@ -729,16 +799,6 @@ enum result passes_open(const struct passes_options *options, struct passes **op
     return result ? result : prepare(passes, options->frames.first, note, err);
 }
 
-static struct pass_images images_of(const struct passes *passes, const char *number)
-{
-    return (struct pass_images){.folder = passes->folder.path,
-                                .number = number,
-                                .name = passes->options->scene,
-                                .scene = &passes->scene,
-                                .subsample = passes->options->subsample,
-                                .rays = passes->options->rays};
-}
-
 enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
                           struct error *err)
 {
@@ -762,7 +822,7 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     if (!result)
         note_version(passes, note);
     if (!result)
-        result = note_mixed(passes, note, err);
+        result = note_objects(passes, note, err);
     if (!result)
         result = remove_images(passes, &images, err);
     if (result)

@@ -9,7 +9,9 @@
  *   position     a, coded as a colour (position_code.h)
  *   endpoint     b: mirrors seen by the camera, coded positions seen by mirrored rays, coded directions where they miss
  *   direction    the camera's rays, coded: they give the eye and the view angle whatever the camera
- *   exponent     the Phong exponent, where the scene has more than one
+ *   exponent     the Phong exponent; the passes that only the reflection needs wait for it, to be rendered where
+ *                something is glossy alone
+ *   exponent-mean  the same antialiased, where an exponent is painted, so that its edges are as smooth as the picture's
  *   own          POV-Ray's own picture, small: what the parts must add up to
  */
 #ifndef POVGLOSS_PASSES_H

@@ -69,6 +69,15 @@ static enum result start_job(struct povray_job *job, char *const *environment, s
     return result;
 }
 
+/* The first job that may be started, or NULL. */
+static struct povray_job *next_job(struct povray_job *jobs, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!jobs[i].started && (!jobs[i].after || jobs[i].after->finished))
+            return &jobs[i];
+    return NULL;
+}
+
 static void report(const struct povray_job *jobs, int count, povray_progress *progress, void *context)
 {
     double done = 0;
@@ -81,11 +90,12 @@ enum result povray_run(struct povray_job *jobs, int count, int at_once, char *co
                        povray_progress *progress, void *context, int *failed, struct error *err)
 {
     enum result result = RESULT_OK;
-    int finished = 0, running = 0, next = 0;
+    int finished = 0, running = 0;
     *failed = -1;
     while (!result && finished < count) {
-        while (!result && running < at_once && next < count && running < MAX_JOBS) {
-            result = start_job(&jobs[next++], environment, err);
+        struct povray_job *next;
+        while (!result && running < at_once && running < MAX_JOBS && (next = next_job(jobs, count))) {
+            result = start_job(next, environment, err);
             running += !result;
         }
         struct pollfd polls[MAX_JOBS];
@@ -120,6 +130,8 @@ enum result povray_run(struct povray_job *jobs, int count, int at_once, char *co
                 *failed = owners[i];
                 result = error_set(err, RESULT_POVRAY, "povray failed with exit status %d in the %s pass", status,
                                    job->name);
+            } else if (job->ended && !interrupt_signal()) {
+                result = job->ended(job->context, err);
             }
         }
         report(jobs, count, progress, context);

@@ -7,12 +7,18 @@
 
 enum { POVRAY_VERSION_SIZE = 32 };
 
+/* Is called when a job has ended well. */
+typedef enum result povray_ended(void *context, struct error *err);
+
 /* One process. The caller fills the first group and frees the arguments; povray_run does the rest. */
 struct povray_job {
     const char *name;       /* of the pass, for messages */
     const char *folder;     /* where the process runs and writes its image */
     char *const *arguments; /* argv, argv[0] being the program; NULL-terminated */
     int timeout_s;          /* it is ended when it runs longer; 0: never */
+    const struct povray_job *after; /* one of the others, which has ended before this one starts; NULL: none */
+    povray_ended *ended;    /* may change the jobs that are after this one; NULL: none */
+    void *context;
 
     struct child child;
     struct buffer messages; /* standard error */
@@ -25,7 +31,7 @@ struct povray_job {
 /* Is told from time to time how much of all the work is done, 0 to 1. */
 typedef void povray_progress(void *context, double done);
 
-/* Runs all jobs, `at_once` of them at a time, in their order, with the environment given. When one fails the others are
+/* Runs all jobs, `at_once` of them at a time, in their order as far as none waits, with the environment given. When one fails the others are
  * ended, *failed is its index (else -1), its messages are there for povray_error_text, and the result is RESULT_POVRAY
  * with its exit status; RESULT_POVRAY and -1 when one isn't there or runs into its timeout; RESULT_INTERRUPTED after a
  * signal. No process is left in any case. */
