@@ -16,7 +16,7 @@ command
 lobe_rays
 draw
 measure
-main_glossfilter main_povgloss main_view
+main_glossfilter main_povgloss main_view'
 
 row_of() {
     printf '%s\n' "$rows" | grep -nwE "$1" | cut -d: -f1
