@@ -257,26 +257,26 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
 {
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
-    const struct pass pass = pass_of(&passes->scene, id);
+    const struct pass *pass = &pass_table[id];
     static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
     enum result result = scene_arguments(passes, frame, arguments, err);
-    const char *const *format = pass.codes ? codes : radiance;
+    const char *const *format = pass->codes ? codes : radiance;
     for (int i = 0; !result && format[i]; i++)
         result = text_list_add(arguments, err, "%s", format[i]);
-    if (!result && (!pass.full_size || id == PASS_OWN))
+    if (!result && (!pass->full_size || id == PASS_OWN))
         result = text_list_add(arguments, err, "-A");
     if (!result && id == PASS_OWN)
         result = add_own_size(passes, arguments, err);
     /* Reflectivities are small, and their edges show as much as those of the picture. */
-    if (!result && pass.full_size && (id == PASS_REFLECTANCE || id == PASS_SPECULAR) && switches->antialias)
+    if (!result && id == PASS_REFLECTANCE && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
-    if (!result && pass.technical)
+    if (!result && pass->technical)
         result = text_list_add(arguments, err, "+Q8");
     static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
     for (int i = 0; !result && id == PASS_PHOTONS && one_pixel[i]; i++)
         result = text_list_add(arguments, err, "%s", one_pixel[i]);
-    if (!result && options->subsample > 1 && !pass.full_size) {
+    if (!result && options->subsample > 1 && !pass->full_size) {
         result = text_list_add(arguments, err, "+W%d", switches->width / options->subsample);
         if (!result)
             result = text_list_add(arguments, err, "+H%d", switches->height / options->subsample);
