@@ -37,6 +37,29 @@ static enum result read_codes(const struct pass_images *images, enum pass_id id,
     return result;
 }
 
+enum result pass_images_glossy(const struct pass_images *images, struct image_window *window, struct error *err)
+{
+    enum { MARGIN = 2 };
+    struct image codes = {0};
+    enum result result = read_codes(images, PASS_EXPONENT, &codes, err);
+    int left = codes.width, top = codes.height, right = 0, bottom = 0;
+    for (int y = 0; y < codes.height; y++)
+        for (int x = 0; x < codes.width; x++)
+            if (image_row(&codes, 2, y)[x] > 0) {
+                left = x < left ? x : left;
+                right = x >= right ? x + 1 : right;
+                top = y < top ? y : top;
+                bottom = y + 1;
+            }
+    left = left > MARGIN && right > 0 ? left - MARGIN : 0;
+    top = top > MARGIN && right > 0 ? top - MARGIN : 0;
+    right = right + MARGIN < codes.width ? right + MARGIN : codes.width;
+    bottom = bottom + MARGIN < codes.height ? bottom + MARGIN : codes.height;
+    *window = (struct image_window){.left = left, .top = top, .width = right - left, .height = bottom - top};
+    image_free(&codes);
+    return result;
+}
+
 enum result pass_images_radiance(const struct pass_images *images, enum pass_id id, struct image *image,
                                  struct error *err)
 {
@@ -118,7 +141,7 @@ static enum result clear_haze(const struct pass_images *images, struct image *sp
 static float decode_exponent(double high, double low)
 {
     double code = (round(65535 * high) + low) / 65535; /* a float holds the 16 bits, but not their quotient */
-    return (float)fmax(expm1(128 * code * log(2)), 1e-6);
+    return (float)exp2(128 * code - 20);
 }
 
 static enum result alloc_exponents(struct gbuffer *gbuffer, const struct image *codes, struct error *err)
@@ -142,20 +165,29 @@ static bool is_total_reflection(const struct image *codes, int x, int y)
            image_row(codes, 0, y)[x] > 0.95f * image_row(codes, 2, y)[x];
 }
 
-/* phong: 0 where the camera sees nothing glossy. */
-static void fill_exponents(struct gbuffer *gbuffer, double single, const struct image *codes)
+/* The exponent at a pixel: 0 where nothing is glossy. */
+static float exponent_at(const struct image *codes, int x, int y)
+{
+    double share = (double)image_row(codes, 2, y)[x];
+    if (share <= (double)LEAST_SHARE || is_total_reflection(codes, x, y))
+        return 0;
+    return decode_exponent((double)image_row(codes, 0, y)[x] / share, (double)image_row(codes, 1, y)[x] / share);
+}
+
+/* phong: 0 where the camera sees nothing glossy. `means`: the antialiased exponents, or an empty image. */
+static void fill_exponents(struct gbuffer *gbuffer, double single, const struct image *codes, const struct image *means)
 {
     for (int y = 0; y < gbuffer->phong.height; y++)
         for (int x = 0; x < gbuffer->phong.width; x++) {
             bool glossy = any_nonzero(&gbuffer->position, x, y) && any_nonzero(&gbuffer->endpoint, x, y) &&
                           !is_total_reflection(codes, x, y);
             float exponent = 0;
-            double share = codes->pixels ? (double)image_row(codes, 2, y)[x] : 1;
             if (glossy && single >= 0)
                 exponent = (float)fmax(single, 1e-6);
-            else if (glossy && share > (double)LEAST_SHARE)
-                exponent = decode_exponent((double)image_row(codes, 0, y)[x] / share,
-                                           (double)image_row(codes, 1, y)[x] / share);
+            else if (glossy)
+                exponent = exponent_at(codes, x, y);
+            float mean = exponent > 0 && means->pixels ? exponent_at(means, x, y) : 0;
+            exponent = mean > 0 ? mean : exponent;
             image_row(&gbuffer->phong, 0, y)[x] = exponent >= 1e20f ? INFINITY : exponent;
         }
 }
@@ -351,12 +383,16 @@ static enum result make_dull(struct gbuffer *gbuffer, struct error *err)
 enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
                              struct error *err)
 {
-    struct image directions = {0}, codes = {0};
+    struct image directions = {0}, codes = {0}, means = {0};
     enum result result = pass_images_radiance(images, PASS_BASE, &gbuffer->base, err);
     if (result || !images->scene->glossy)
         return result ? result : make_dull(gbuffer, err);
-    if (pass_needed(images->scene, PASS_EXPONENT))
+    if (pass_exponents_differ(images->scene))
         result = read_codes(images, PASS_EXPONENT, &codes, err);
+    if (!result && pass_needed(images->scene, PASS_EXPONENT_MEAN))
+        result = read_codes(images, PASS_EXPONENT_MEAN, &means, err);
+    if (!result && means.pixels && !same_size(&means, &codes))
+        result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the exponents are of different sizes", images->name);
     if (!result)
         result = pass_images_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
     if (!result && pass_needed(images->scene, PASS_HAZE))
@@ -378,7 +414,7 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     if (!result)
         result = check_sizes(images, gbuffer, &directions, err);
     if (!result) {
-        fill_exponents(gbuffer, images->scene->exponent, &codes);
+        fill_exponents(gbuffer, images->scene->exponent, &codes, &means);
         if (pass_weights_specular(images->scene))
             result = divide_specular(images, gbuffer, err);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
@@ -401,5 +437,6 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     else
         image_free(&directions);
     image_free(&codes);
+    image_free(&means);
     return result;
 }

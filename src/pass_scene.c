@@ -29,13 +29,17 @@ static const char end_reflectance[] = "povgloss_dark()\n"
                                       "  #else #if (povgloss_reflects) reflection_exponent 0.001 #end #end";
 
 static const char mirror_white[] = "rgb 1";
-/* log2(1 + p)/128 in two digits of 16 bits. */
-static const char mirror_exponent[] = "#local povgloss_v = 65535*log(1 + povgloss_phong)/log(2)/128;\n"
-                                      "  rgb <floor(povgloss_v)/65535, povgloss_v - floor(povgloss_v), 1>";
+/* An exponent is coded as (20 + log2 p)/128, in two digits of 16 bits. That of a painted finish is in its pigment. */
+static const char mirror_exponent[] =
+    "#local povgloss_v = 65535*povgloss_exponent_code(povgloss_phong);\n"
+    "  rgb (povgloss_phong < povgloss_maps_from)*<floor(povgloss_v)/65535, povgloss_v - floor(povgloss_v), 1>";
 
-static const char sky_half[] = "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n"
-                               "sky_sphere { pigment { rgb pow(0.5, 20) } }\n";
-static const char sky_white[] = "sky_sphere { pigment { rgb 1 } }\n";
+/* For mirrored rays only. */
+#define SKY(colour) \
+    "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n" \
+    "sky_sphere { pigment { rgb " colour " } }\n"
+static const char sky_half[] = SKY("pow(0.5, 20)");
+static const char sky_white[] = SKY("1");
 #define MIRRORS "no_reflection no_shadow no_radiosity"
 #define SEEN_IN_MIRRORS "no_image"
 static const char outside[] = "povgloss_leave_copy() object { povgloss_object } povgloss_enter_copy()";
@@ -54,23 +58,28 @@ const struct pass pass_table[PASS_COUNT] = {
                              .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
+                       .glossy_part = true,
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
     [PASS_HAZE] = {.name = "haze",
+                   .glossy_part = true,
                    .mirror_colour = mirror_white,
                    .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                    .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_haze}},
     [PASS_REFLECTANCE] = {.name = "reflectance",
+                          .glossy_part = true,
                           .full_size = true,
                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
                           .second = {.copy = -1},
                           .trailer = sky_half},
     [PASS_REFLECTIVITY] = {.name = "reflectivity",
+                           .glossy_part = true,
                            .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
                            .second = {.copy = -1},
                            .trailer = sky_half},
     [PASS_POSITION] = {.name = "position",
+                       .glossy_part = true,
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
@@ -78,6 +87,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                        .second = {.copy = -1}},
     [PASS_POSITION_LOW] = {.name = "position-low",
+                           .glossy_part = true,
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
@@ -85,6 +95,7 @@ const struct pass pass_table[PASS_COUNT] = {
                            .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                            .second = {.copy = -1}},
     [PASS_ENDPOINT] = {.name = "endpoint",
+                       .glossy_part = true,
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
@@ -94,6 +105,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .coded_sky = true},
     [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
+                           .glossy_part = true,
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
@@ -117,11 +129,20 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .second = {.copy = -1},
                        .trailer = sky_white},
+    [PASS_EXPONENT_MEAN] = {.name = "exponent-mean",
+                            .codes = true,
+                            .smooth = true,
+                            .technical = true,
+                            .mirror_colour = mirror_exponent,
+                            .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
+                            .second = {.copy = -1},
+                            .trailer = sky_white},
     [PASS_OWN] = {.name = "own",
                   .full_size = true,
                   .first = {.copy = SCENE_COPY_PLAIN, .modifiers = ""},
                   .second = {.copy = -1}},
     [PASS_MIRROR] = {.name = "mirror",
+                     .glossy_part = true,
                      .codes = true,
                      .technical = true,
                      .digits = POSITION_DIGITS_HIGH,
@@ -130,6 +151,7 @@ const struct pass pass_table[PASS_COUNT] = {
                      .second = {.copy = -1},
                      .coded_sky = true},
     [PASS_MIRROR_LOW] = {.name = "mirror-low",
+                         .glossy_part = true,
                          .codes = true,
                          .technical = true,
                          .digits = POSITION_DIGITS_LOW,
@@ -157,6 +179,11 @@ static enum result add_coded_macros(const struct pass *pass, struct buffer *text
                          pass->clear_from);
 }
 
+static bool is_mirror_copy(const struct scene_part *part)
+{
+    return part->copy == SCENE_COPY_MIRROR || part->copy == SCENE_COPY_MIRROR_SECOND;
+}
+
 /* What takes the place of povgloss_cover, a pigment that may be transparent, in a texture and in an object. */
 static enum result add_cover_macros(const struct scene_part *part, struct buffer *text, struct error *err)
 {
@@ -165,7 +192,7 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
                                "    function { min(0.999, povgloss_through(x, y, z).filter + "
                                "povgloss_through(x, y, z).transmit) }\n"
                                "    color_map { [0 rgb 0] [%1$g rgb 0] [%1$g rgbt 1] [1 rgbt 1] } }";
-    bool mirror = part->copy == SCENE_COPY_MIRROR || part->copy == SCENE_COPY_MIRROR_SECOND;
+    bool mirror = is_mirror_copy(part);
     char *thinned;
     enum result result = text_printf(&thinned, err, thin, CLEAR);
     if (!result)
@@ -184,15 +211,15 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
                                "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
                                "    min(povgloss_lower, povgloss_t)>;\n"
                                "  #declare povgloss_last = povgloss_texture; povgloss_count(<-1, 0, -1, povgloss_t>)\n"
-                               "  povgloss_set_default(povgloss_t) %s povgloss_set_default(0)\n#end\n"
+                               "  povgloss_set_default(povgloss_t) %s %s %s povgloss_set_default(0)\n#end\n"
                                "#macro povgloss_cover_of_object(povgloss_uv)\n"
                                "  povgloss_see()\n"
                                "  #declare povgloss_own = <povgloss_default_state.x, povgloss_default_state.y,\n"
                                "    povgloss_default_state.z, povgloss_t>;\n"
                                "  povgloss_count(<-1, 0, -1, povgloss_t>)\n"
                                "  povgloss_set_default(povgloss_t) %s povgloss_set_default(0)\n#end\n",
-                               mirror ? thinned : keep,
-                               part->copy == SCENE_COPY_CODED ? coded : mirror ? thinned : keep);
+                               mirror ? "#if (povgloss_texture.x < povgloss_maps_from)" : "", mirror ? thinned : keep,
+                               mirror ? "#end" : "", part->copy == SCENE_COPY_CODED ? coded : mirror ? thinned : keep);
     free(thinned);
     return result;
 }
@@ -243,6 +270,7 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#end\n"
         "#macro povgloss_begin(povgloss_of)\n"
         "  #declare povgloss_state = povgloss_of; #declare povgloss_reflects = 0; #declare povgloss_phong = -1;\n"
+        "  #declare povgloss_begun = povgloss_of.x;\n"
         "#end\n"
         "#macro povgloss_of_finish(povgloss_s)\n"
         "  povgloss_set(povgloss_s.x, povgloss_s.y, povgloss_s.z)\n"
@@ -282,6 +310,48 @@ static bool is_base(const struct scene_part *part)
     return part->copy == SCENE_COPY_BASE || part->copy == SCENE_COPY_BASE_FIRST || part->copy == SCENE_COPY_BASE_SECOND;
 }
 
+/* A finish with a Gloss_Map has an exponent from povgloss_painted on in its state. Where exponents are drawn each map becomes
+ * a pigment of codes, which takes the place of the finish's own from there on where the texture transforms it, and the
+ * exponent is then (2 + its number in povgloss_maps) povgloss_painted. */
+static enum result add_map_macros(const struct pass *pass, struct buffer *text, struct error *err)
+{
+    return buffer_printf(
+        text, err,
+        "#declare povgloss_maps_from = %s;\n"
+        "#declare povgloss_maps = array[1]; #declare povgloss_map_count = 0;\n"
+        "#macro povgloss_take_map()\n"
+        "  #if (povgloss_phong = povgloss_maps_from)\n"
+        "    #if (povgloss_map_count = dimension_size(povgloss_maps, 1))\n"
+        "      #local povgloss_more = array[2*povgloss_map_count];\n"
+        "      #local povgloss_i = 0;\n"
+        "      #while (povgloss_i < povgloss_map_count)\n"
+        "        #local povgloss_more[povgloss_i] = povgloss_maps[povgloss_i];\n"
+        "        #local povgloss_i = povgloss_i + 1;\n"
+        "      #end\n"
+        "      #declare povgloss_maps = povgloss_more;\n"
+        "    #end\n"
+        "    #declare povgloss_maps[povgloss_map_count] = pigment {\n"
+        "      pigment_pattern { povgloss_map }\n"
+        "      color_map {\n"
+        "        [0 rgb <povgloss_exponent_code(povgloss_map_min), 0, 1>]\n"
+        "        [1 rgb <povgloss_exponent_code(povgloss_map_max), 0, 1>]\n"
+        "      }\n"
+        "    }\n"
+        "    #declare povgloss_phong = povgloss_maps_from*(2 + povgloss_map_count);\n"
+        "    #declare povgloss_map_count = povgloss_map_count + 1;\n"
+        "  #end\n"
+        "#end\n"
+        "#macro povgloss_paint()\n"
+        "  #if (povgloss_value = 0 & povgloss_last.x >= povgloss_maps_from & povgloss_last.x != povgloss_begun)\n"
+        "    pigment { povgloss_maps[floor(povgloss_last.x/povgloss_maps_from + 0.5) - 2] }\n"
+        "  #end\n"
+        "#end\n"
+        "#macro povgloss_repaint()\n"
+        "  #if (povgloss_last.x >= povgloss_maps_from) finish { } #else pigment { povgloss_pigment } #end\n"
+        "#end\n",
+        pass->mirror_colour == mirror_exponent ? "2e30" : "1e60");
+}
+
 /* What a copy with marked finishes refers to besides. */
 static enum result add_finish_macros(const struct pass *pass, const struct scene_part *part, struct buffer *text,
                                      struct error *err)
@@ -291,10 +361,15 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
         "#macro povgloss_dark() ambient 0 emission 0 diffuse 0 specular 0 phong 0 irid { 0 } #end\n"
         "#declare povgloss_pigment = pigment { rgb 0 };\n"
         "#macro povgloss_hide(povgloss_s)\n"
-        "  #if (povgloss_exponent(povgloss_s) >= 0 & (povgloss_mirrors | povgloss_clear(povgloss_s.t))) pigment { rgb 0 } "
+        "  #if (povgloss_exponent(povgloss_s) >= 0 & (povgloss_mirrors | povgloss_clear(povgloss_s.t))\n"
+        "       & povgloss_s.x < povgloss_maps_from) pigment { rgb 0 } #end\n"
         "#end\n"
+        "#macro povgloss_exponent_code(povgloss_p)\n"
+        "  ((20 + log(min(max(povgloss_p, pow(2, -20)), 1e30))/log(2))/128)\n"
         "#end\n",
         err);
+    if (!result)
+        result = add_map_macros(pass, text, err);
     if (!result)
         result = buffer_printf(text, err, "#declare povgloss_mirrors = %d;\n", pass->mirror_colour != NULL);
     if (!result && pass->mirror_colour)
@@ -303,12 +378,15 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
         result = buffer_printf(text, err,
                                "#macro povgloss_finish(povgloss_named)\n"
                                "  #if (povgloss_given >= 0) #declare povgloss_phong = povgloss_given; #end\n"
+                               "  povgloss_take_map()\n"
                                "  #if (povgloss_phong >= 0) povgloss_set(povgloss_phong, povgloss_state.y, povgloss_state.z) "
                                "#end\n"
                                "  #declare povgloss_last = povgloss_state; povgloss_count(povgloss_state)\n"
                                "  #declare povgloss_phong = (povgloss_named ? povgloss_state.x : "
                                "povgloss_exponent(povgloss_state));\n"
-                               "  %s\n#end\n"
+                               "  %s\n"
+                               "  #if (povgloss_phong >= povgloss_maps_from) emission 1 crand 0 #end\n"
+                               "#end\n"
                                "#macro povgloss_end() povgloss_finish(0) #end\n"
                                "#macro povgloss_end_of_name() povgloss_finish(1) #end\n"
                                "#macro povgloss_enter_default()\n"
@@ -316,6 +394,9 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                "  #declare povgloss_last = povgloss_default_state;\n"
                                "#end\n"
                                "#macro povgloss_leave_default()\n"
+                               "  #if (povgloss_last.x >= 2e30)\n"
+                               "    #error \"Gloss_Map() can't stand in a #default: write it into the finishes\\n\"\n"
+                               "  #end\n"
                                "  #declare povgloss_default_state = <povgloss_last.x, povgloss_last.y, povgloss_last.z, 0>;\n"
                                "  #declare povgloss_plain = finish { };\n"
                                "  #declare povgloss_shiny = finish { povgloss_begin(povgloss_last) povgloss_end() };\n"
@@ -482,6 +563,9 @@ struct pass pass_of(const struct scene *scene, enum pass_id id)
         pass.second.copy = SCENE_COPY_REFLECTION;
         pass.second.finish_end = id == PASS_HAZE ? end_haze_of_reflection : end_reflection;
     }
+    /* An aperture sees glossy surfaces beyond the silhouettes of the exponent pass, which has none. */
+    if (scene->focal_blur && !pass.codes)
+        pass.glossy_part = false;
     return pass;
 }
 
@@ -563,7 +647,7 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_PROBE || pass_is_mirror(id))
         return false;
-    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
+    if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;
     /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye, too. */
     if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line && !pass_weights_specular(scene))
@@ -571,6 +655,11 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
     if (id == PASS_REFLECTIVITY && !pass_weights_specular(scene))
         return false;
     return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
+}
+
+bool pass_exponents_differ(const struct scene *scene)
+{
+    return scene->exponent < 0 || scene->mixes || scene->refracts;
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])

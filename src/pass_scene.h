@@ -22,6 +22,7 @@ enum pass_id {
     PASS_ENDPOINT_LOW,
     PASS_DIRECTION,
     PASS_EXPONENT,
+    PASS_EXPONENT_MEAN,
     PASS_OWN, /* POV-Ray's own picture of the scene as it is, small and without antialiasing */
     PASS_MIRROR, /* the mirrored rays' directions, for probes: an endpoint may lie behind glass that bends the ray */
     PASS_MIRROR_LOW,
@@ -50,6 +51,8 @@ struct pass {
     const char *name;
     bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
+    bool smooth;    /* antialiased, whatever the user asks */
+    bool glossy_part; /* of use where something glossy is, as the exponent pass knows; else the whole picture is rendered */
     bool technical; /* colours are numbers: linear, without media or radiosity */
     enum position_digits digits;
     const char *mirror_colour; /* reflectivity of its glossy finishes */
@@ -69,9 +72,13 @@ struct pass pass_of(const struct scene *scene, enum pass_id id);
 bool pass_weights_specular(const struct scene *scene);
 
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
- * where it has one, or media, or a weighted specular pass, which then has a reflectivity, too; exponents where there are
- * several, where a texture may mix a glossy surface with another one, or where a total reflection may be taken for one. */
+ * where it has one, or media, or a weighted specular pass, which then has a reflectivity, too; antialiased exponents where one
+ * is painted. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
+
+/* Whether the exponent pass says more than where something is glossy: there are several exponents, a texture may mix a
+ * glossy surface with another one, or a total reflection may be taken for one. */
+bool pass_exponents_differ(const struct scene *scene);
 
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are
  * loaded as in the other passes. */

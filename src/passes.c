@@ -6,9 +6,11 @@
 
 #include "compose.h"
 #include "input_file.h"
+#include "own_files.h"
 #include "pass_images.h"
 #include "picture_check.h"
 #include "reads.h"
+#include "sandbox.h"
 #include "scene_discover.h"
 #include "work_folder.h"
 
@@ -21,6 +23,8 @@
 
 #define EMPTY_INI "empty.ini"
 
+enum { POVRAY_BLOCK = 32 }; /* pixels a side of what POV-Ray renders at a time */
+
 struct passes {
     const struct passes_options *options;
     struct scene scene;
@@ -28,6 +32,7 @@ struct passes {
     int frame;                        /* for which the scene was read */
     struct text_list directories;     /* where includes are looked for, absolute; they have links lib0, lib1, ... */
     struct text_list directory_names; /* the same as the user wrote them */
+    struct text_list command;         /* the sandbox, if there is one, and the program */
     char **environment;               /* of POV-Ray: the strings are those of environ, a constant and `preload` */
     char *preload;
     struct reads reads;
@@ -129,8 +134,21 @@ static enum result add_directory(struct passes *passes, const char *path, struct
     return result;
 }
 
-/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; the scene's own folder comes last. They
- * are reached through links, since POV-Ray's command line can't take every path. */
+/* The folder of povgloss.inc, for a scene that has no copy of it. */
+static enum result add_own_directory(struct passes *passes, struct error *err)
+{
+    char *folder;
+    struct error ignored;
+    enum result result = RESULT_OK;
+    if (!own_file("share/povgloss/include", &folder, &ignored)) {
+        result = add_directory(passes, folder, err);
+        free(folder);
+    }
+    return result;
+}
+
+/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; then come the scene's own folder and ours.
+ * They are reached through links, since POV-Ray's command line can't take every path. */
 static enum result find_directories(struct passes *passes, struct error *err)
 {
     const struct passes_options *options = passes->options;
@@ -146,7 +164,7 @@ static enum result find_directories(struct passes *passes, struct error *err)
     if (!result)
         result = add_directory(passes, slash ? scene_folder : ".", err);
     free(scene_folder);
-    return result;
+    return result ? result : add_own_directory(passes, err);
 }
 
 static enum result link_directories(const struct passes *passes, struct error *err)
@@ -187,19 +205,37 @@ enum result passes_load_scene(const struct passes_options *options, struct scene
 
 /* ---- running ---- */
 
+/* POV-Ray's sandbox and program; it runs in a folder of its own. */
+static enum result find_command(struct passes *passes, struct error *err)
+{
+    const char *name = passes->options->povray;
+    char *program = NULL, *object = NULL;
+    enum result result = RESULT_OK;
+    if (strchr(name, '/') || passes->options->sandbox)
+        result = program_find(name, &program, err);
+    if (!result && passes->options->sandbox && !program)
+        result = povray_missing(name, err);
+    if (!result && passes->options->sandbox && passes->options->reads)
+        result = text_printf(&object, err, "%s/reads.so", passes->folder.path);
+    if (!result && passes->options->sandbox)
+        result = sandbox_begin(passes->folder.path, &passes->directories, (const char *const[]){program, object}, 2,
+                               &passes->command, err);
+    if (!result)
+        result = text_list_add(&passes->command, err, "%s", program ? program : name);
+    free(program);
+    free(object);
+    return result;
+}
+
 /* The program, the user's switches, where files are looked for, the scene and its frame. */
 static enum result scene_arguments(const struct passes *passes, int frame, struct text_list *arguments,
                                    struct error *err)
 {
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
-    /* POV-Ray runs in a folder of its own. */
-    errno = 0;
-    char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
-    if (!program && errno == ENOMEM)
-        return error_memory(err, 0);
-    enum result result = text_list_add(arguments, err, "%s", program ? program : options->povray);
-    free(program);
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < passes->command.count; i++)
+        result = text_list_add(arguments, err, "%s", passes->command.texts[i]);
     for (int i = 0; !result && i < switches->passed.count; i++)
         result = text_list_add(arguments, err, "%s", switches->passed.texts[i]);
     if (!result)
@@ -235,6 +271,12 @@ static bool file_depends_on_size(const struct scene_file *file)
     return false;
 }
 
+static enum result add_size(struct text_list *arguments, int width, int height, struct error *err)
+{
+    enum result result = text_list_add(arguments, err, "+W%d", width);
+    return result ? result : text_list_add(arguments, err, "+H%d", height);
+}
+
 /* POV-Ray's own picture is small, unless the scene isn't the same in another size. */
 static enum result add_own_size(const struct passes *passes, struct text_list *arguments, struct error *err)
 {
@@ -247,8 +289,7 @@ static enum result add_own_size(const struct passes *passes, struct text_list *a
         depends |= file_depends_on_size(&passes->scene.files[i]);
     if (!depends)
         picture_check_size(width, height, &width, &height);
-    enum result result = text_list_add(arguments, err, "+W%d", width);
-    return result ? result : text_list_add(arguments, err, "+H%d", height);
+    return add_size(arguments, width, height, err);
 }
 
 /* The user's switches first, then those on which the pass depends: POV-Ray takes the last one. */
@@ -257,30 +298,30 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
 {
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
-    const struct pass *pass = &pass_table[id];
+    const struct pass pass = pass_of(&passes->scene, id);
     static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
     enum result result = scene_arguments(passes, frame, arguments, err);
-    const char *const *format = pass->codes ? codes : radiance;
+    const char *const *format = pass.codes ? codes : radiance;
     for (int i = 0; !result && format[i]; i++)
         result = text_list_add(arguments, err, "%s", format[i]);
-    if (!result && (!pass->full_size || id == PASS_OWN))
+    if (!result && (!pass.full_size || id == PASS_OWN))
         result = text_list_add(arguments, err, "-A");
     if (!result && id == PASS_OWN)
         result = add_own_size(passes, arguments, err);
     /* Reflectivities are small, and their edges show as much as those of the picture. */
     if (!result && id == PASS_REFLECTANCE && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
-    if (!result && pass->technical)
+    static const char *const smooth[] = {"+A0.0", "+AM1", "+R3", "-J", "Antialias_Gamma=1.0", NULL};
+    for (int i = 0; !result && pass.smooth && smooth[i]; i++)
+        result = text_list_add(arguments, err, "%s", smooth[i]);
+    if (!result && pass.technical)
         result = text_list_add(arguments, err, "+Q8");
     static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
     for (int i = 0; !result && id == PASS_PHOTONS && one_pixel[i]; i++)
         result = text_list_add(arguments, err, "%s", one_pixel[i]);
-    if (!result && options->subsample > 1 && !pass->full_size) {
-        result = text_list_add(arguments, err, "+W%d", switches->width / options->subsample);
-        if (!result)
-            result = text_list_add(arguments, err, "+H%d", switches->height / options->subsample);
-    }
+    if (!result && options->subsample > 1 && !pass.full_size)
+        result = add_size(arguments, switches->width / options->subsample, switches->height / options->subsample, err);
     return result;
 }
 
@@ -393,6 +434,14 @@ static void no_progress(void *context, double done)
     (void)done;
 }
 
+static void add_timings(const struct passes *passes, const struct povray_job *jobs, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (jobs[i].finished)
+            timings_add_povray(passes->options->timings, jobs[i].name, jobs[i].start_s, jobs[i].wall_s,
+                               jobs[i].child.cpu_s);
+}
+
 /* POV-Ray parses the scene and is stopped by the wrapper before it draws: that is a success if the log has its last
  * line. */
 static enum result run_discovery(struct passes *passes, const char *name, const char *folder, struct error *err)
@@ -414,6 +463,7 @@ static enum result run_discovery(struct passes *passes, const char *name, const 
         result = RESULT_OK;
     else if (failed >= 0)
         result = report_failure(passes, &job, err);
+    add_timings(passes, &job, 1);
     input_file_free(&log);
     povray_jobs_free(&job, 1);
     text_list_free(&arguments);
@@ -492,58 +542,108 @@ static enum result note_objects(const struct passes *passes, struct error *note,
     return result;
 }
 
-static enum result run_passes(struct passes *passes, int frame, struct error *err)
+static struct pass_images images_of(const struct passes *passes, const char *number)
 {
-    const struct passes_options *options = passes->options;
-    struct text_list arguments[PASS_COUNT] = {0};
-    char *folders[PASS_COUNT] = {0};
-    enum result result = RESULT_OK;
+    return (struct pass_images){.folder = passes->folder.path,
+                                .number = number,
+                                .name = passes->options->scene,
+                                .scene = &passes->scene,
+                                .subsample = passes->options->subsample,
+                                .rays = passes->options->rays};
+}
+
+/* Rows and columns to render; `left` and `top` count from 0. */
+static enum result add_window(struct text_list *arguments, int left, int top, int width, int height, struct error *err)
+{
+    enum result result = text_list_add(arguments, err, "+SC%d", left + 1);
+    if (!result)
+        result = text_list_add(arguments, err, "+EC%d", left + width);
+    if (!result)
+        result = text_list_add(arguments, err, "+SR%d", top + 1);
+    return result ? result : text_list_add(arguments, err, "+ER%d", top + height);
+}
+
+/* The jobs of a frame while they run. */
+struct run {
+    struct passes *passes;
+    int frame;
+    struct text_list arguments[PASS_COUNT];
+    char *folders[PASS_COUNT];
+};
+
+/* The exponent pass has ended: where it saw nothing glossy those that wait for it have nothing to do. */
+static enum result narrow(void *context, struct error *err)
+{
+    struct run *run = context;
+    struct passes *passes = run->passes;
+    char number[FRAMES_NUMBER_SIZE];
+    frames_number(&passes->options->frames, run->frame, number);
+    const struct pass_images images = images_of(passes, number);
+    struct image_window window;
+    enum result result = pass_images_glossy(&images, &window, err);
     for (int i = 0; !result && i < passes->job_count; i++) {
-        result = job_arguments(passes, passes->ids[i], frame, &arguments[i], err);
-        if (!result)
-            result = text_printf(&folders[i], err, "%s/%s", passes->folder.path, pass_table[passes->ids[i]].name);
-        passes->jobs[i] = (struct povray_job){.name = pass_table[passes->ids[i]].name,
-                                              .folder = folders[i],
-                                              .arguments = arguments[i].texts,
-                                              .timeout_s = options->timeout_s};
-    }
-    int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
-    int first = passes->ids[0] == PASS_PHOTONS; /* the others wait for it */
-    if (!result && first)
-        result = remove_left(passes, PASS_PHOTONS, PASS_PHOTONS_FILE, err);
-    for (int i = 0; !result && i < OBJECT_NOTES; i++)
-        result = remove_left(passes, PASS_BASE, object_notes[i].file, err);
-    if (!result && first)
-        result = povray_run(passes->jobs, 1, 1, passes->environment, no_progress, NULL, &failed, err);
-    if (!result) {
-        result = povray_run(passes->jobs + first, passes->job_count - first, at_once, passes->environment,
-                            options->progress, options->progress_context, &failed, err);
-        failed += failed >= 0 ? first : 0;
-    }
-    if (failed >= 0)
-        result = report_failure(passes, &passes->jobs[failed], err);
-    if (!result && !povray_is_other_version(&passes->jobs[0].messages, passes->version))
-        passes->version[0] = 0;
-    povray_jobs_free(passes->jobs, passes->job_count);
-    for (int i = 0; i < passes->job_count; i++) {
-        text_list_free(&arguments[i]);
-        free(folders[i]);
+        const struct pass pass = pass_of(&passes->scene, passes->ids[i]);
+        if (!pass.glossy_part)
+            continue;
+        int step = pass.full_size ? images.subsample : 1;
+        /* POV-Ray antialiases block by block: the blocks are those of the whole picture. */
+        int left = (int)window.left * step, top = (int)window.top * step;
+        int more_left = left % POVRAY_BLOCK, more_top = top % POVRAY_BLOCK;
+        result = add_window(&run->arguments[i], left - more_left, top - more_top, window.width * step + more_left,
+                            window.height * step + more_top, err);
+        passes->jobs[i].arguments = run->arguments[i].texts;
     }
     return result;
 }
 
-/* The size of the image, all of it. */
-static enum result add_size(struct text_list *arguments, int width, int height, struct error *err)
+static struct povray_job *job_of(struct passes *passes, enum pass_id id)
 {
-    const struct {
-        const char *format;
-        int value;
-    } switches[] = {{"+W%d", width}, {"+H%d", height}, {"+SC%d", 1}, {"+EC%d", width}, {"+SR%d", 1}, {"+ER%d", height}};
+    for (int i = 0; i < passes->job_count; i++)
+        if (passes->ids[i] == id)
+            return &passes->jobs[i];
+    return NULL;
+}
+
+static enum result run_passes(struct passes *passes, int frame, struct error *err)
+{
+    const struct passes_options *options = passes->options;
+    struct run run = {.passes = passes, .frame = frame};
     enum result result = RESULT_OK;
-    for (size_t i = 0; !result && i < sizeof switches / sizeof *switches; i++) {
-        char text[32];
-        snprintf(text, sizeof text, switches[i].format, switches[i].value);
-        result = text_list_add(arguments, err, "%s", text);
+    for (int i = 0; !result && i < passes->job_count; i++) {
+        result = job_arguments(passes, passes->ids[i], frame, &run.arguments[i], err);
+        if (!result)
+            result = text_printf(&run.folders[i], err, "%s/%s", passes->folder.path, pass_table[passes->ids[i]].name);
+        passes->jobs[i] = (struct povray_job){.name = pass_table[passes->ids[i]].name,
+                                              .folder = run.folders[i],
+                                              .arguments = run.arguments[i].texts,
+                                              .timeout_s = options->timeout_s};
+    }
+    struct povray_job *photons = job_of(passes, PASS_PHOTONS), *exponent = job_of(passes, PASS_EXPONENT);
+    for (int i = 0; i < passes->job_count; i++) {
+        bool narrowed = !options->switches->partial && pass_of(&passes->scene, passes->ids[i]).glossy_part;
+        passes->jobs[i].after = narrowed ? exponent : &passes->jobs[i] != photons ? photons : NULL;
+    }
+    if (exponent && !options->switches->partial) {
+        exponent->ended = narrow;
+        exponent->context = &run;
+    }
+    int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
+    if (!result && photons)
+        result = remove_left(passes, PASS_PHOTONS, PASS_PHOTONS_FILE, err);
+    for (int i = 0; !result && i < OBJECT_NOTES; i++)
+        result = remove_left(passes, PASS_BASE, object_notes[i].file, err);
+    if (!result)
+        result = povray_run(passes->jobs, passes->job_count, at_once, passes->environment, options->progress,
+                            options->progress_context, &failed, err);
+    if (failed >= 0)
+        result = report_failure(passes, &passes->jobs[failed], err);
+    if (!result && !povray_is_other_version(&passes->jobs[0].messages, passes->version))
+        passes->version[0] = 0;
+    add_timings(passes, passes->jobs, passes->job_count);
+    povray_jobs_free(passes->jobs, passes->job_count);
+    for (int i = 0; i < passes->job_count; i++) {
+        text_list_free(&run.arguments[i]);
+        free(run.folders[i]);
     }
     return result;
 }
@@ -557,6 +657,8 @@ static enum result run_view(const struct passes *passes, int frame, int width, i
     if (!result)
         result = add_size(&arguments, width, height, err);
     if (!result)
+        result = add_window(&arguments, 0, 0, width, height, err);
+    if (!result)
         result = text_printf(&folder, err, "%s/%s", passes->folder.path, pass_table[PASS_PROBE].name);
     struct povray_job job = {
         .name = pass_table[PASS_PROBE].name, .folder = folder, .arguments = arguments.texts};
@@ -564,6 +666,7 @@ static enum result run_view(const struct passes *passes, int frame, int width, i
         result = povray_run(&job, 1, 1, passes->environment, no_progress, NULL, &failed, err);
     if (failed >= 0)
         result = report_failure(passes, &job, err);
+    add_timings(passes, &job, 1);
     povray_jobs_free(&job, 1);
     text_list_free(&arguments);
     free(folder);
@@ -648,6 +751,7 @@ static enum result remove_images(const struct passes *passes, const struct pass_
 /* Reads the scene and writes those of the passes. */
 static enum result prepare(struct passes *passes, int frame, struct error *note, struct error *err)
 {
+    struct timings_moment start = timings_now();
     passes->frame = frame;
     note->text[0] = 0;
     enum result result = load_scene(passes, err);
@@ -655,7 +759,10 @@ static enum result prepare(struct passes *passes, int frame, struct error *note,
         result = discover(passes, err);
     if (!result)
         result = check_scene(passes, note, err);
-    return result ? result : write_scenes(passes, err);
+    if (!result)
+        result = write_scenes(passes, err);
+    timings_add(passes->options->timings, "scene", start);
+    return result;
 }
 
 /* What POV-Ray computes may be something else in another frame. */
@@ -687,17 +794,9 @@ enum result passes_open(const struct passes_options *options, struct passes **op
         result = link_directories(passes, err);
     if (!result)
         result = prepare_environment(passes, err);
+    if (!result)
+        result = find_command(passes, err);
     return result ? result : prepare(passes, options->frames.first, note, err);
-}
-
-static struct pass_images images_of(const struct passes *passes, const char *number)
-{
-    return (struct pass_images){.folder = passes->folder.path,
-                                .number = number,
-                                .name = passes->options->scene,
-                                .scene = &passes->scene,
-                                .subsample = passes->options->subsample,
-                                .rays = passes->options->rays};
 }
 
 enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
@@ -710,12 +809,16 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     *gbuffer = (struct gbuffer){0};
     note->text[0] = 0;
     enum result result = prepare_frame(passes, frame, err);
+    struct timings_moment start = timings_now();
     if (!result)
         result = run_passes(passes, frame, err);
+    timings_add(options->timings, "passes", start);
     if (!result && options->reads)
         result = collect_reads(passes, err);
+    start = timings_now();
     if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
+    timings_add(options->timings, "decode", start);
     if (!result)
         note_version(passes, note);
     if (!result)
@@ -756,6 +859,7 @@ enum result passes_check_sum(const struct passes *passes, int frame, const struc
         return RESULT_OK;
     frames_number(&options->frames, frame, number);
     const struct pass_images images = images_of(passes, number);
+    struct timings_moment start = timings_now();
     enum result result = pass_images_radiance(&images, PASS_OWN, &own, err);
     if (!result)
         result = compose(gbuffer, &gbuffer->specular, &sum, err);
@@ -765,6 +869,7 @@ enum result passes_check_sum(const struct passes *passes, int frame, const struc
         note_difference(passes, &difference, note);
     if (!result)
         result = remove_image(passes, &images, PASS_OWN, err);
+    timings_add(options->timings, "check", start);
     image_free(&sum);
     image_free(&own);
     return result;
@@ -803,6 +908,7 @@ enum result passes_close(struct passes *passes, struct error *err)
         return RESULT_OK;
     free_scene(passes);
     reads_free(&passes->reads);
+    text_list_free(&passes->command);
     free(passes->environment);
     free(passes->preload);
     enum result result = work_folder_remove(&passes->folder, err);

@@ -10,7 +10,9 @@
  *   position     a, coded as a colour (position_code.h)
  *   endpoint     b: mirrors seen by the camera, coded positions seen by mirrored rays, coded directions where they miss
  *   direction    the camera's rays, coded: they give the eye and the view angle whatever the camera
- *   exponent     the Phong exponent, where the scene has more than one
+ *   exponent     the Phong exponent; the passes that only the reflection needs wait for it, to be rendered where
+ *                something is glossy alone
+ *   exponent-mean  the same antialiased, where an exponent is painted, so that its edges are as smooth as the picture's
  *   own          POV-Ray's own picture, small: what the parts must add up to
  */
 #ifndef POVGLOSS_PASSES_H
@@ -20,6 +22,7 @@
 #include "povray.h"
 #include "povray_switches.h"
 #include "scene.h"
+#include "timings.h"
 
 struct passes_options {
     const char *scene;  /* path of the .pov file */
@@ -34,9 +37,11 @@ struct passes_options {
     int timeout_s;        /* for each POV-Ray process; 0: none */
     bool check;           /* POV-Ray's own picture is rendered, too, for passes_check_sum */
     bool rays;            /* the gbuffer gets the eye's rays and the mirrored ones; not with subsampling */
+    bool sandbox;         /* POV-Ray runs in one (sandbox.h) */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;
+    struct timings *timings; /* gets a row for each step; NULL: none */
 };
 
 struct passes;

@@ -52,8 +52,9 @@ struct scene {
     int found_count;
     bool needs_discovery;  /* its includes or its assumed_gamma are known to POV-Ray only: scene_discover */
     struct scene_names names;
-    bool glossy;           /* some finish may be glossy, by Gloss or Gloss_Roughness or by the user's choice */
+    bool glossy;           /* some finish may be glossy, by a macro or by the user's choice */
     double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
+    bool painted;          /* some exponent may be painted, by Gloss_Map */
     bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
     bool mixes;            /* some texture may mix others: a map, an average, a blob, a mesh with a texture at each corner */
     bool radiosity;        /* light that a mirror throws onto other things may be computed */
