@@ -60,6 +60,8 @@ struct filter_options filter_options_default(void);
  * Weights are relative to the pixel's own endpoint and good to about 1e-6 + 1e-7 sqrt(p) (float positions are no
  * better), tabulated ones to 3.2e-5 more.
  *
+ * A gbuffer with a window has the results that its picture needs alone; the rest of both images is 0.
+ *
  * The pixel itself always counts: with a radius below 1 (a mirror: p of 1e20 and more; a = b, where equation (4) gives
  * 0) the result is L0 itself. Without an eye or view angle the radius is Theta over the angle between the endpoints of
  * neighbouring pixels, seen from a: the smallest over the glossy ones of the four neighbours; 0 where there are none.

@@ -37,6 +37,8 @@ static const char help[] =
     "  --resume             skip every image whose file is there already\n"
     "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
     "                       interpolate; needs +W and +H\n"
+    "  --margin M           let the blur see what is M pixels, or M% of width and height, beyond the\n"
+    "                       picture's border (default 0); for perspective cameras\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"
     "  --timeout SECONDS    end a POV-Ray process that runs longer, and fail; 0: never (default)\n"
     "  --no-check           don't compare the sum of the passes with a small picture by POV-Ray itself\n"
