@@ -51,6 +51,13 @@ const struct channel_group channel_groups[CHANNEL_GROUPS] = {
      "the Phong exponent",
      "say it with --phong or --roughness; wherever the endpoint is not all zero is glossy",
      "phong "},
+    {"rays",
+     {"rays.R", "rays.G", "rays.B", "rays.A"},
+     4,
+     false,
+     "the mean radiance of further rays of the lobe, and how many (povgloss passes --rays N)",
+     NULL,
+     "rays "},
 };
 
 /* The layer of a channel's name ("a.b" of "a.b.X"), "" where there is none, and its component ("X"). */
@@ -212,7 +219,7 @@ enum result channels_check_map(const char *text, struct error *err)
                 return RESULT_OK;
     }
     return error_set(err, RESULT_USAGE,
-                     "--map %s: must be CHANNEL=NAME, the channel one of base, specular, reflectance, P, endpoint and "
-                     "phong, or one like P.X",
+                     "--map %s: must be CHANNEL=NAME, the channel one of base, specular, reflectance, P, endpoint, "
+                     "phong and rays, or one like P.X",
                      text);
 }

@@ -7,7 +7,11 @@
 
 #include "channels.h"
 #include "compose.h"
+#include "input_file.h"
 #include "lobe.h"
+#include "passes_file.h"
+#include "picture.h"
+#include "sheet.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -357,6 +361,31 @@ static enum result write_picture(const char *path, const struct cli_filter *opti
     return image_write(path, format, options->bits, image, count > 0 ? layers : NULL, count, err);
 }
 
+enum result cli_draw_sheet(const char *path, const struct cli_filter *options, const struct cli_sheet *exponents,
+                           const struct gbuffer *gbuffer, struct error *err)
+{
+    struct image sheet = {0};
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < exponents->count; i++) {
+        struct filter_options filter = options->filter;
+        filter.phong = exponents->phong[i];
+        filter.phong_override = true;
+        struct image image = {0};
+        char label[32];
+        snprintf(label, sizeof label, "p = %g", (double)filter.phong);
+        result = picture_draw(gbuffer, &filter, &image, err);
+        if (!result && i == 0)
+            result = sheet_alloc(&sheet, exponents->count, image.width, image.height, err);
+        if (!result)
+            sheet_put(&sheet, exponents->count, i, &image, label);
+        image_free(&image);
+    }
+    if (!result)
+        result = write_picture(path, options, &sheet, NULL, NULL, err);
+    image_free(&sheet);
+    return result;
+}
+
 enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                       struct image *glossy, struct image *measure, struct error *err)
 {
@@ -376,6 +405,44 @@ enum result cli_write(const char *path, const struct cli_filter *options, const 
     return result;
 }
 
+static bool is_finite(const struct image *image, int x, int y)
+{
+    bool finite = true;
+    for (int i = 0; i < 3 && image->pixels; i++)
+        finite = finite && isfinite(image_row(image, i, y)[x]);
+    return finite;
+}
+
+void cli_warn_of_pixels(const char *program, const char *name, const struct cli_filter *options,
+                        const struct gbuffer *gbuffer)
+{
+    if (options->quiet)
+        return;
+    const struct filter_options *filter = &options->filter;
+    bool other = filter->phong_override && gbuffer->rays.pixels && gbuffer->phong.pixels;
+    long left_out = filter_left_out(gbuffer), spoilt = 0, unused = 0;
+    for (int y = 0; y < gbuffer->specular.height; y++)
+        for (int x = 0; x < gbuffer->specular.width; x++) {
+            spoilt += !is_finite(&gbuffer->base, x, y) || !is_finite(&gbuffer->reflectance, x, y);
+            unused += other && image_row(&gbuffer->rays, 3, y)[x] > 0 &&
+                      image_row(&gbuffer->phong, 0, y)[x] != filter->phong;
+        }
+    if (left_out > 0)
+        fprintf(stderr,
+                "%s: warning: %s: %ld glossy pixel%s left out, without a reflection: exponent, position, endpoint or "
+                "specular radiance isn't finite there, or W or the exponent is below 0 (glossfilter --check counts each)\n",
+                program, name, left_out, left_out > 1 ? "s are" : " is");
+    if (spoilt > 0)
+        fprintf(stderr,
+                "%s: warning: %s: base or reflectance isn't finite at %ld pixel%s, and so the picture may not be\n",
+                program, name, spoilt, spoilt > 1 ? "s" : "");
+    if (unused > 0)
+        fprintf(stderr,
+                "%s: warning: %s: the further rays of %ld pixel%s were drawn for another exponent than %g and are left "
+                "out: trace them again by povgloss render --rays N --phong %g, or leave out --phong\n",
+                program, name, unused, unused > 1 ? "s" : "", (double)filter->phong, (double)filter->phong);
+}
+
 enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                      struct error *err)
 {
@@ -390,13 +457,34 @@ enum result cli_draw(const char *path, const struct cli_filter *options, const s
     return result;
 }
 
+/* Exponents with commas between them. */
+static enum result set_sheet(const char *value, struct cli_sheet *sheet, struct error *err)
+{
+    enum { MAX_TEXT = 64 };
+    sheet->count = 0;
+    for (const char *at = value; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        char text[MAX_TEXT];
+        double phong;
+        snprintf(text, sizeof text, "%.*s", (int)strcspn(at, ","), at);
+        enum result result = cli_number("--sheet", text, 0, INFINITY, &phong, err);
+        if (result)
+            return result;
+        if (sheet->count == CLI_SHEET_MAX)
+            return error_set(err, RESULT_USAGE, "--sheet: at most %d exponents", CLI_SHEET_MAX);
+        sheet->phong[sheet->count++] = (float)phong;
+    }
+    return RESULT_OK;
+}
+
 /* One argument that begins with "-". */
 static enum result glossfilter_option(int argc, char **argv, int *index, struct cli_glossfilter *command,
                                       struct error *err)
 {
     const char *argument = argv[*index], *value;
-    if (is(argument, "-h") || is(argument, "--help") || is(argument, "--version") || is(argument, "--check")) {
+    if (is(argument, "-h") || is(argument, "--help") || is(argument, "--version") || is(argument, "--check") ||
+        is(argument, "--view")) {
         *(is(argument, "--check")     ? &command->check
+          : is(argument, "--view")    ? &command->view
           : is(argument, "--version") ? &command->version
                                       : &command->help) = true;
         *index += 1;
@@ -414,6 +502,10 @@ static enum result glossfilter_option(int argc, char **argv, int *index, struct 
         result = channels_check_map(value, err);
     if (result == RESULT_OK && value)
         return text_list_add(&command->map, err, "%s", value);
+    if (result == RESULT_OK)
+        result = cli_value(argc, argv, index, "--sheet", &value, err);
+    if (result == RESULT_OK && value)
+        return set_sheet(value, &command->sheet, err);
     if (result != RESULT_OK)
         return result;
     enum cli_option option;
@@ -435,8 +527,10 @@ enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *comma
             enum result result = glossfilter_option(argc, argv, &index, command, err);
             if (result != RESULT_OK)
                 return result;
+        } else if (command->input && command->band_count == CLI_BANDS_MAX) {
+            return error_set(err, RESULT_USAGE, "%s: at most %d passes files; see --help", argv[index], CLI_BANDS_MAX + 1);
         } else if (command->input) {
-            return error_set(err, RESULT_USAGE, "%s: one passes file only; see --help", argv[index]);
+            command->bands[command->band_count++] = argv[index++];
         } else {
             command->input = argv[index++];
         }
@@ -447,12 +541,34 @@ enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *comma
         return error_set(err, RESULT_USAGE, "no passes file: glossfilter PASSES.exr -o OUT.exr; see --help");
     if (command->check && command->output)
         return error_set(err, RESULT_USAGE, "--check only looks at the passes: leave out -o");
-    if (command->check)
+    if (command->check && command->band_count)
+        return error_set(err, RESULT_USAGE, "%s: --check looks at one passes file", command->bands[0]);
+    if (command->view && (command->check || command->sheet.count))
+        return error_set(err, RESULT_USAGE, "--view opens a window: leave out --check and --sheet");
+    if (command->check || (command->view && !command->output))
         return RESULT_OK;
     if (!command->output)
         return error_set(err, RESULT_USAGE, "no output: say where with -o FILE; see --help");
+    if (command->sheet.count && (command->options.filter.phong_override || command->options.layers))
+        return error_set(err, RESULT_USAGE, "--sheet has exponents of its own and no layers: leave out %s",
+                         command->options.layers ? "--layers" : "--phong and --roughness");
     enum result result = cli_check_output(command->output, &command->options, err);
     return result == RESULT_OK ? cli_check_filter(&command->options, err) : result;
+}
+
+enum result cli_read(const struct cli_glossfilter *command, struct gbuffer *gbuffer, struct error *err)
+{
+    enum result result = passes_file_read_mapped(command->input, &command->map, gbuffer, NULL, err);
+    for (int i = 0; !result && i < command->band_count; i++) {
+        struct gbuffer band;
+        struct error cause;
+        result = passes_file_read_mapped(command->bands[i], &command->map, &band, NULL, err);
+        if (!result && gbuffer_join(gbuffer, &band, &cause))
+            result = error_set(err, RESULT_DATA, "%s: %s", input_file_name(command->bands[i]), cause.text);
+    }
+    if (result)
+        gbuffer_free(gbuffer);
+    return result;
 }
 
 void cli_complain(const char *program, const struct error *err)

@@ -56,10 +56,27 @@ MUST_CHECK enum result cli_integer(const char *option, const char *text, int low
 MUST_CHECK enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                  struct image *glossy, struct image *measure, struct error *err);
 
+/* Warns, unless asked to be quiet, of the pixels of `name` that the filter leaves out, or whose base or reflectance isn't
+ * finite. */
+void cli_warn_of_pixels(const char *program, const char *name, const struct cli_filter *options,
+                        const struct gbuffer *gbuffer);
+
 /* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and confidence.V, of the
  * paper radius.V. */
 MUST_CHECK enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                 struct error *err);
+
+/* Exponents of a contact sheet's pictures. */
+enum { CLI_SHEET_MAX = 100 };
+struct cli_sheet {
+    float phong[CLI_SHEET_MAX];
+    int count; /* 0: no sheet */
+};
+
+/* Filters the passes by each exponent, in place of their own, and writes a sheet of the pictures to `path`. */
+MUST_CHECK enum result cli_draw_sheet(const char *path, const struct cli_filter *options,
+                                      const struct cli_sheet *exponents, const struct gbuffer *gbuffer,
+                                      struct error *err);
 
 /* Refuses a path and options of the output that cli_write would refuse, before the work and not after it. */
 MUST_CHECK enum result cli_check_output(const char *path, const struct cli_filter *options, struct error *err);
@@ -68,14 +85,21 @@ MUST_CHECK enum result cli_check_output(const char *path, const struct cli_filte
 MUST_CHECK enum result cli_check_filter(const struct cli_filter *options, struct error *err);
 
 /* The command line of glossfilter. */
+enum { CLI_BANDS_MAX = 999 };
 struct cli_glossfilter {
     struct cli_filter options;
     const char *input, *output;
+    const char *bands[CLI_BANDS_MAX]; /* further passes files: bands of the same picture */
+    int band_count;
+    struct cli_sheet sheet;
     struct text_list map; /* CHANNEL=NAME; the caller frees it */
-    bool check, help, version;
+    bool check, view, help, version;
 };
 
 MUST_CHECK enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *command, struct error *err);
+
+/* Reads the passes file, or joins its bands, into *gbuffer, which the caller frees. */
+MUST_CHECK enum result cli_read(const struct cli_glossfilter *command, struct gbuffer *gbuffer, struct error *err);
 
 /* Prints "program: message" to standard error. */
 void cli_complain(const char *program, const struct error *err);

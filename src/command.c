@@ -39,6 +39,7 @@ static bool take_flag(const char *argument, struct command *command)
         {"--print-include-dir", &command->print_include_dir},
         {"--from-scene", &command->from_scene},
         {"--resume", &command->resume},
+        {"--sandbox", &command->passes.sandbox},
         {"--no-check", &command->no_check},
     };
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
@@ -84,6 +85,7 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
         {"--jobs", NULL, &command->passes.jobs, 0, 64},
         {"--timeout", NULL, &command->passes.timeout_s, 0, 10000000},
         {"--subsample", NULL, &command->passes.subsample, 1, 4},
+        {"--rays", NULL, &command->rays, 0, 4096},
     };
     const char *value;
     enum result result = cli_value(argc, argv, index, "--gloss", &value, err);
@@ -107,6 +109,8 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
             result = cli_integer(options[i].name, value, options[i].low, options[i].high, options[i].number, err);
         if (!result && command->passes.subsample == 3)
             result = error_set(err, RESULT_USAGE, "--subsample 3: 1, 2 or 4 is allowed");
+        if (!result && command->rays && command->kind > KIND_PASSES)
+            result = error_set(err, RESULT_USAGE, "--rays is an option of povgloss render and povgloss passes");
         return result;
     }
     return RESULT_OK;
@@ -250,8 +254,13 @@ static enum result check_command(struct command *command, const struct povray_sw
                          output_file_name(command->output), count);
     if (step > 1 && (switches->width == 0 || switches->height == 0 || switches->width % step || switches->height % step))
         return error_set(err, RESULT_USAGE, "--subsample %d needs +W and +H, both multiples of %d", step, step);
-    if (step > 1 && (command->passes.margin > 0 || command->passes.margin_px > 0))
-        return error_set(err, RESULT_USAGE, "--subsample and --margin don't go together: leave one of them out");
+    if ((step > 1 || command->rays) && (command->passes.margin > 0 || command->passes.margin_px > 0))
+        return error_set(err, RESULT_USAGE, "%s and --margin don't go together: leave one of them out",
+                         step > 1 ? "--subsample" : "--rays");
+    const struct filter_options *filter = &command->filter.filter;
+    if (command->rays && (step > 1 || (filter->phong_override && !(filter->phong > 0))))
+        return error_set(err, RESULT_USAGE, "--rays needs every pixel and an exponent above 0: leave out %s",
+                         step > 1 ? "--subsample" : "--phong 0");
     if (command->kind == KIND_PASSES) {
         enum image_format format;
         struct error ignored;
@@ -341,6 +350,7 @@ enum result command_parse(int argc, char **argv, struct command *command, struct
     command->passes.scene = command->path;
     command->passes.switches = switches;
     command->passes.reads = command->depfile;
+    command->passes.rays = command->rays > 0;
     command->passes.check = !command->no_check && !command->filter.quiet && command->kind <= KIND_PASSES;
     command->passes.frames = frames_plan(&switches->frames);
     return result ? result : check_command(command, switches, err);

@@ -14,6 +14,7 @@ struct command {
     const char *image; /* to compare with the probes, whose file is the scene then */
     struct probe_options probe;
     struct buffer exponents; /* of doubles, for the probes */
+    int rays; /* further rays of the lobe at every glossy pixel */
     const char *depfile; /* NULL: none */
     char *path; /* of the scene */
     struct passes_options passes;

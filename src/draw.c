@@ -2,6 +2,7 @@
 #include "draw.h"
 
 #include "depfile.h"
+#include "lobe_rays.h"
 #include "output_file.h"
 #include "passes_file.h"
 
@@ -110,6 +111,8 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
     /* 2. the passes, from POV-Ray; the first frame reads the scene for all */
     if (!result)
         result = draw_passes(command, passes, number, frame, &gbuffer, err);
+    if (!result && command->rays)
+        result = lobe_rays_trace(command, *passes, number, &gbuffer, err);
     if (!result && last && command->depfile)
         result = passes_reads(*passes, reads, err);
     /* A pipe whose reader went away ends the program as it writes: no folder is there then. */
@@ -117,6 +120,8 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
         draw_close_passes(passes);
 
     /* 3. the passes file, or the picture by the filter */
+    if (!result)
+        cli_warn_of_pixels("povgloss", command->path, &command->filter, &gbuffer);
     if (!result && command->kind == KIND_PASSES) {
         struct timings_moment start = timings_now();
         result = passes_file_write(path, &gbuffer, err);

@@ -6,6 +6,7 @@
 #include "filter.h"
 
 #include "bands.h"
+#include "control_variate.h"
 #include "filter_kernel.h"
 #include "interrupt.h"
 #include "lobe.h"
@@ -26,6 +27,9 @@ enum { EDGE_REACH_PX = 3 };
 static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
 static const double pi = 3.14159265358979324;
+
+/* In units of the taps, whose farthest position is at 2^20: 1e-15 of that. */
+static const double least_distance = 1e-9;
 
 /* How many times larger tan^2(theta) is of what hides an endpoint: 10 % of the angle are left to the digits of the
  * positions and to bumps. */
@@ -97,6 +101,24 @@ static bool sample_read(const struct filter *filter, int x, int y, struct sample
         sample->b[i] /= w > 0 ? w : length;
     sample->b[3] = w > 0;
     return true;
+}
+
+long filter_left_out(const struct gbuffer *gbuffer)
+{
+    const struct filter_options options = {0};
+    const struct filter filter = {.gbuffer = gbuffer, .options = &options};
+    long count = 0;
+    for (int y = 0; y < gbuffer->specular.height; y++)
+        for (int x = 0; x < gbuffer->specular.width; x++) {
+            struct sample sample;
+            bool meant = false;
+            for (int i = 0; i < 4; i++)
+                meant = meant || image_row(&gbuffer->endpoint, i, y)[x] != 0; /* also NaN */
+            if (gbuffer->phong.pixels)
+                meant = meant && image_row(&gbuffer->phong, 0, y)[x] != 0;
+            count += meant && !sample_read(&filter, x, y, &sample);
+        }
+    return count;
 }
 
 static void scales_find(struct filter *filter)
@@ -386,7 +408,7 @@ static bool lane_fill(const struct filter *filter, int x, int y, int l, struct f
     position_at(filter, x, y, a);
     double distance = direction_to(filter, a, x, y, direction);
     bool one_tap = filter->options->mode == FILTER_MODE_PAPER && image_row(&filter->radius, 0, y)[x] < 1;
-    if (phong >= mirror_phong || distance == 0 || one_tap)
+    if (phong >= mirror_phong || distance < least_distance || one_tap)
         return false;
     for (int i = 0; i < 3; i++) {
         lanes->a[i][l] = a[i];
@@ -636,6 +658,8 @@ static enum result check(const struct gbuffer *gbuffer, const struct filter_opti
         result = check_plane(&gbuffer->endpoint, "endpoint", 4, size, err);
     if (result == RESULT_OK && gbuffer->phong.pixels)
         result = check_plane(&gbuffer->phong, "phong", 1, size, err);
+    if (result == RESULT_OK && gbuffer->rays.pixels)
+        result = check_plane(&gbuffer->rays, "rays", 4, size, err);
     if (result == RESULT_OK && gbuffer->reflectance.pixels)
         result = check_plane(&gbuffer->reflectance, "reflectance", 3, size, err);
     if (result != RESULT_OK)
@@ -728,6 +752,8 @@ enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_opt
         result = bands_run(height, 1, threads, paper ? blur_paper : blur_best, &filter, err);
     if (result == RESULT_OK && atomic_load(&filter.out_of_memory))
         result = error_memory(err, (double)(FILTER_SEE_COLUMNS(filter.taps.width) * 3 * FILTER_LANES * sizeof(float)));
+    if (result == RESULT_OK && gbuffer->rays.pixels)
+        result = control_variate(gbuffer, options->phong_override ? options->phong : NAN, threads, glossy, err);
     if (result == RESULT_OK && gbuffer->reflectance.pixels)
         result = bands_run(height, 16, threads, edges, &filter, err);
     if (result == RESULT_OK && measure) {

@@ -2,33 +2,10 @@
 #include "measure.h"
 
 #include "draw.h"
+#include "lobe_rays.h"
 #include "probe_file.h"
 
 #include <stdio.h>
-
-/* Rounds of rays until every probe is exact enough, or has as many as are allowed. */
-static enum result take_rays(const struct command *command, struct passes *passes, struct probes *probes,
-                           struct error *err)
-{
-    enum result result = RESULT_OK;
-    long round = 0;
-    while (!result && probes_left(probes)) {
-        struct buffer view = {0};
-        struct image image = {0};
-        int width, height;
-        if (round != probes->rays && !command->filter.quiet)
-            fprintf(stderr, "povgloss: %d probes of %ld rays\n", probes_open(probes), probes->rays);
-        round = probes->rays;
-        result = probes_view(probes, &view, &width, &height, err);
-        if (!result)
-            result = passes_view(passes, command->passes.frames.first, &view, width, height, &image, err);
-        if (!result)
-            result = probes_take(probes, &image, err);
-        image_free(&image);
-        buffer_free(&view);
-    }
-    return result;
-}
 
 static enum result draw_probes(const struct command *command, const struct probes *probes,
                                const struct gbuffer *gbuffer, struct error *err)
@@ -59,7 +36,7 @@ enum result measure_probes(struct command *command, struct error *err)
     if (!result)
         result = probes_begin(&probes, &gbuffer, &command->probe, err);
     if (!result)
-        result = take_rays(command, passes, &probes, err);
+        result = lobe_rays_measure(command, passes, command->passes.frames.first, &probes, err);
     draw_close_passes(&passes);
     int left = result || command->kind == KIND_BRUTE ? 0 : probes_open(&probes);
     struct error note = {0};

@@ -182,7 +182,7 @@ static void unmix_specular(struct image *specular, const struct image *exponents
 static float decode_exponent(double high, double low)
 {
     double code = (round(65535 * high) + low) / 65535; /* a float holds the 16 bits, but not their quotient */
-    return (float)fmax(expm1(128 * code * log(2)), 1e-6);
+    return (float)exp2(128 * code - 20);
 }
 
 static enum result alloc_exponents(struct gbuffer *gbuffer, const struct image *codes, struct error *err)
@@ -206,22 +206,100 @@ static bool is_total_reflection(const struct image *codes, int x, int y)
            image_row(codes, 0, y)[x] > 0.95f * image_row(codes, 2, y)[x];
 }
 
-/* phong: 0 where the camera sees nothing glossy. */
-static void fill_exponents(struct gbuffer *gbuffer, double single, const struct image *codes)
+/* The exponent at a pixel: 0 where nothing is glossy. */
+static float exponent_at(const struct image *codes, int x, int y)
+{
+    double share = (double)image_row(codes, 2, y)[x];
+    if (share <= (double)LEAST_SHARE || is_total_reflection(codes, x, y))
+        return 0;
+    return decode_exponent((double)image_row(codes, 0, y)[x] / share, (double)image_row(codes, 1, y)[x] / share);
+}
+
+/* phong: 0 where the camera sees nothing glossy. `means`: the antialiased exponents, or an empty image. */
+static void fill_exponents(struct gbuffer *gbuffer, double single, const struct image *codes, const struct image *means)
 {
     for (int y = 0; y < gbuffer->phong.height; y++)
         for (int x = 0; x < gbuffer->phong.width; x++) {
             bool glossy = any_nonzero(&gbuffer->position, x, y) && any_nonzero(&gbuffer->endpoint, x, y) &&
                           !is_total_reflection(codes, x, y);
             float exponent = 0;
-            double share = codes->pixels ? (double)image_row(codes, 2, y)[x] : 1;
             if (glossy && single >= 0)
                 exponent = (float)fmax(single, 1e-6);
-            else if (glossy && share > (double)LEAST_SHARE)
-                exponent = decode_exponent((double)image_row(codes, 0, y)[x] / share,
-                                           (double)image_row(codes, 1, y)[x] / share);
+            else if (glossy)
+                exponent = exponent_at(codes, x, y);
+            float mean = exponent > 0 && means->pixels ? exponent_at(means, x, y) : 0;
+            exponent = mean > 0 ? mean : exponent;
             image_row(&gbuffer->phong, 0, y)[x] = exponent >= 1e20f ? INFINITY : exponent;
         }
+}
+
+/* With focal blur the specular pass holds L0 as the surface reflects it, averaged over the aperture and as large as the
+ * base: divided by the reflectance, which is averaged alike, it is L0 again. */
+static enum result divide_specular(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
+{
+    const double gamma = images->scene->working_gamma, least = 1e-4;
+    const int step = images->subsample;
+    const struct image *reflectance = &gbuffer->reflectance;
+    struct image divided;
+    enum result result = image_alloc(&divided, reflectance->width / step, reflectance->height / step, 3, err);
+    for (int channel = 0; !result && channel < 3; channel++)
+        for (int y = 0; y < divided.height; y++)
+            for (int x = 0; x < divided.width; x++) {
+                double reflected = 0, reflectivity = 0;
+                for (int v = y * step; v < (y + 1) * step; v++)
+                    for (int u = x * step; u < (x + 1) * step; u++) {
+                        reflected += gamma_encode(gamma, (double)image_row(&gbuffer->specular, channel, v)[u]);
+                        reflectivity += (double)image_row(reflectance, channel, v)[u];
+                    }
+                bool reflects = reflectivity > least * step * step;
+                image_row(&divided, channel, y)[x] = reflects ? (float)gamma_decode(gamma, reflected / reflectivity) : 0;
+            }
+    image_free(&gbuffer->specular);
+    gbuffer->specular = divided;
+    return result;
+}
+
+static void copy_surface(struct gbuffer *gbuffer, size_t from, size_t to)
+{
+    struct image *const planes[] = {&gbuffer->position, &gbuffer->endpoint, &gbuffer->phong};
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
+        for (int channel = 0; channel < planes[i]->channels; channel++) {
+            int width = planes[i]->width, column = (int)(from % (size_t)width), row = (int)(from / (size_t)width);
+            image_row(planes[i], channel, (int)(to / (size_t)width))[to % (size_t)width] =
+                image_row(planes[i], channel, row)[column];
+        }
+}
+
+/* The aperture sees glossy surfaces beyond the silhouettes that its centre sees: there they have a, b and the exponent of the
+ * nearest glossy pixel. */
+static enum result widen_surfaces(struct gbuffer *gbuffer, struct error *err)
+{
+    const int width = gbuffer->phong.width, height = gbuffer->phong.height;
+    const size_t count = (size_t)width * (size_t)height;
+    size_t *queue = malloc(count * sizeof *queue), first = 0, end = 0;
+    bool *reached = calloc(count, sizeof *reached);
+    enum result result = queue && reached ? RESULT_OK : error_memory(err, (double)count * sizeof *queue);
+    for (size_t i = 0; !result && i < count; i++)
+        if (image_row(&gbuffer->phong, 0, (int)(i / (size_t)width))[i % (size_t)width] > 0) {
+            reached[i] = true;
+            queue[end++] = i;
+        }
+    while (!result && first < end) {
+        size_t from = queue[first++];
+        int x = (int)(from % (size_t)width), y = (int)(from / (size_t)width);
+        for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < height; v++)
+            for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < width; u++) {
+                size_t to = (size_t)v * (size_t)width + (size_t)u;
+                if (reached[to] || !any_nonzero(&gbuffer->specular, u, v))
+                    continue;
+                reached[to] = true;
+                copy_surface(gbuffer, from, to);
+                queue[end++] = to;
+            }
+    }
+    free(queue);
+    free(reached);
+    return result;
 }
 
 /* Where nothing is glossy a is 0 and so is b: the passes file holds what the filter needs. */
@@ -367,12 +445,16 @@ static enum result make_dull(struct gbuffer *gbuffer, struct error *err)
 enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
                              struct error *err)
 {
-    struct image directions = {0}, codes = {0};
+    struct image directions = {0}, codes = {0}, means = {0};
     enum result result = pass_images_radiance(images, PASS_BASE, &gbuffer->base, err);
     if (result || !images->scene->glossy)
         return result ? result : make_dull(gbuffer, err);
     if (pass_exponents_differ(images->scene))
         result = read_codes(images, PASS_EXPONENT, &codes, err);
+    if (!result && pass_needed(images->scene, PASS_EXPONENT_MEAN))
+        result = read_codes(images, PASS_EXPONENT_MEAN, &means, err);
+    if (!result && means.pixels && !same_size(&means, &codes))
+        result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the exponents are of different sizes", images->name);
     if (!result)
         result = pass_images_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
     if (!result && pass_needed(images->scene, PASS_HAZE))
@@ -392,16 +474,24 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     if (!result)
         result = alloc_exponents(gbuffer, &codes, err);
     if (!result)
+        scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
+    if (!result && images->scene->focal_blur && same_size(&gbuffer->specular, &gbuffer->reflectance))
+        result = divide_specular(images, gbuffer, err);
+    if (!result)
         result = check_sizes(images, gbuffer, &directions, err);
     if (!result) {
-        fill_exponents(gbuffer, images->scene->exponent, &codes);
-        unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
-        scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
+        fill_exponents(gbuffer, images->scene->exponent, &codes, &means);
+        if (!images->scene->focal_blur)
+            unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
         if (images->camera)
             set_eye(images->camera, gbuffer);
         else
             eye_find(gbuffer, &directions);
+        if (images->scene->focal_blur)
+            result = widen_surfaces(gbuffer, err);
+    }
+    if (!result) {
         clear_unused(gbuffer);
         note_invisible(gbuffer, images->name, note);
         if (images->subsample > 1)
@@ -416,5 +506,6 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     else
         image_free(&directions);
     image_free(&codes);
+    image_free(&means);
     return result;
 }

@@ -23,6 +23,7 @@ enum pass_id {
     PASS_PLACE, /* positions, few, that tell the eye's before the passes with a margin are rendered */
     PASS_PLACE_LOW,
     PASS_EXPONENT,
+    PASS_EXPONENT_MEAN,
     PASS_OWN, /* POV-Ray's own picture of the scene as it is, small and without antialiasing */
     PASS_MIRROR, /* the mirrored rays' directions, for probes: an endpoint may lie behind glass that bends the ray */
     PASS_MIRROR_LOW,
@@ -53,6 +54,7 @@ struct pass {
     bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
     bool margin;    /* rendered with the margin, by the camera of PASS_MARGIN_CAMERA */
+    bool smooth;    /* antialiased, whatever the user asks */
     bool glossy_part; /* of use where something glossy is, as the exponent pass knows; else the whole picture is rendered */
     bool technical; /* colours are numbers: linear, without media or radiosity */
     enum position_digits digits;
@@ -65,8 +67,12 @@ struct pass {
 
 extern const struct pass pass_table[PASS_COUNT];
 
+/* The pass as this scene takes it. */
+struct pass pass_of(const struct scene *scene, enum pass_id id);
+
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
- * where it has one. */
+ * where it has one, or media, or focal blur, which mixes the sky into glossy surfaces; antialiased exponents where one is
+ * painted. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Whether the exponent pass says more than where something is glossy: there are several exponents, a texture may mix a

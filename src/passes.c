@@ -6,9 +6,11 @@
 
 #include "compose.h"
 #include "input_file.h"
+#include "own_files.h"
 #include "pass_images.h"
 #include "picture_check.h"
 #include "reads.h"
+#include "sandbox.h"
 #include "scene_discover.h"
 #include "work_folder.h"
 
@@ -31,6 +33,7 @@ struct passes {
     int frame;                        /* for which the scene was read */
     struct text_list directories;     /* where includes are looked for, absolute; they have links lib0, lib1, ... */
     struct text_list directory_names; /* the same as the user wrote them */
+    struct text_list command;         /* the sandbox, if there is one, and the program */
     char **environment;               /* of POV-Ray: the strings are those of environ, a constant and `preload` */
     char *preload;
     struct reads reads;
@@ -137,7 +140,7 @@ static enum result write_scenes(struct passes *passes, struct error *err)
     enum result result = RESULT_OK;
     const struct passes_options *options = passes->options;
     passes->margin = (options->margin > 0 || options->margin_px > 0) && passes->scene.glossy &&
-                     !options->switches->partial && !depends_on_size(&passes->scene);
+                     !options->switches->partial && !depends_on_size(&passes->scene) && !passes->scene.focal_blur;
     passes->job_count = 0;
     for (int id = 0; !result && id < PASS_COUNT; id++) {
         bool asked = (passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id)) ||
@@ -170,8 +173,21 @@ static enum result add_directory(struct passes *passes, const char *path, struct
     return result;
 }
 
-/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; the scene's own folder comes last. They
- * are reached through links, since POV-Ray's command line can't take every path. */
+/* The folder of povgloss.inc, for a scene that has no copy of it. */
+static enum result add_own_directory(struct passes *passes, struct error *err)
+{
+    char *folder;
+    struct error ignored;
+    enum result result = RESULT_OK;
+    if (!own_file("share/povgloss/include", &folder, &ignored)) {
+        result = add_directory(passes, folder, err);
+        free(folder);
+    }
+    return result;
+}
+
+/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; then come the scene's own folder and ours.
+ * They are reached through links, since POV-Ray's command line can't take every path. */
 static enum result find_directories(struct passes *passes, struct error *err)
 {
     const struct passes_options *options = passes->options;
@@ -187,7 +203,7 @@ static enum result find_directories(struct passes *passes, struct error *err)
     if (!result)
         result = add_directory(passes, slash ? scene_folder : ".", err);
     free(scene_folder);
-    return result;
+    return result ? result : add_own_directory(passes, err);
 }
 
 static enum result link_directories(const struct passes *passes, struct error *err)
@@ -228,19 +244,37 @@ enum result passes_load_scene(const struct passes_options *options, struct scene
 
 /* ---- running ---- */
 
+/* POV-Ray's sandbox and program; it runs in a folder of its own. */
+static enum result find_command(struct passes *passes, struct error *err)
+{
+    const char *name = passes->options->povray;
+    char *program = NULL, *object = NULL;
+    enum result result = RESULT_OK;
+    if (strchr(name, '/') || passes->options->sandbox)
+        result = program_find(name, &program, err);
+    if (!result && passes->options->sandbox && !program)
+        result = povray_missing(name, err);
+    if (!result && passes->options->sandbox && passes->options->reads)
+        result = text_printf(&object, err, "%s/reads.so", passes->folder.path);
+    if (!result && passes->options->sandbox)
+        result = sandbox_begin(passes->folder.path, &passes->directories, (const char *const[]){program, object}, 2,
+                               &passes->command, err);
+    if (!result)
+        result = text_list_add(&passes->command, err, "%s", program ? program : name);
+    free(program);
+    free(object);
+    return result;
+}
+
 /* The program, the user's switches, where files are looked for, the scene and its frame. */
 static enum result scene_arguments(const struct passes *passes, int frame, struct text_list *arguments,
                                    struct error *err)
 {
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
-    /* POV-Ray runs in a folder of its own. */
-    errno = 0;
-    char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
-    if (!program && errno == ENOMEM)
-        return error_memory(err, 0);
-    enum result result = text_list_add(arguments, err, "%s", program ? program : options->povray);
-    free(program);
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < passes->command.count; i++)
+        result = text_list_add(arguments, err, "%s", passes->command.texts[i]);
     for (int i = 0; !result && i < switches->passed.count; i++)
         result = text_list_add(arguments, err, "%s", switches->passed.texts[i]);
     if (!result)
@@ -299,28 +333,31 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
 {
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
-    const struct pass *pass = &pass_table[id];
+    const struct pass pass = pass_of(&passes->scene, id);
     static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
     enum result result = scene_arguments(passes, frame, arguments, err);
-    const char *const *format = pass->codes ? codes : radiance;
+    const char *const *format = pass.codes ? codes : radiance;
     for (int i = 0; !result && format[i]; i++)
         result = text_list_add(arguments, err, "%s", format[i]);
-    if (!result && (!pass->full_size || id == PASS_OWN))
+    if (!result && (!pass.full_size || id == PASS_OWN))
         result = text_list_add(arguments, err, "-A");
     if (!result && id == PASS_OWN)
         result = add_own_size(passes, arguments, err);
     if (!result && pass_is_place(id))
         result = add_place_size(passes, arguments, err);
     /* Reflectivities are small, and their edges show as much as those of the picture. */
-    if (!result && id == PASS_REFLECTANCE && switches->antialias)
+    if (!result && pass.full_size && (id == PASS_REFLECTANCE || id == PASS_SPECULAR) && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
-    if (!result && pass->technical)
+    static const char *const smooth[] = {"+A0.0", "+AM1", "+R3", "-J", "Antialias_Gamma=1.0", NULL};
+    for (int i = 0; !result && pass.smooth && smooth[i]; i++)
+        result = text_list_add(arguments, err, "%s", smooth[i]);
+    if (!result && pass.technical)
         result = text_list_add(arguments, err, "+Q8");
     static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
     for (int i = 0; !result && id == PASS_PHOTONS && one_pixel[i]; i++)
         result = text_list_add(arguments, err, "%s", one_pixel[i]);
-    if (!result && options->subsample > 1 && !pass->full_size)
+    if (!result && options->subsample > 1 && !pass.full_size)
         result = add_size(arguments, switches->width / options->subsample, switches->height / options->subsample, err);
     return result;
 }
@@ -629,11 +666,11 @@ static int clamp(int value, int low, int high)
 static enum result add_glossy_window(struct run *run, int index, const struct image_window *window, struct error *err)
 {
     struct passes *passes = run->passes;
-    const struct pass *pass = &pass_table[passes->ids[index]];
-    int step = pass->full_size ? passes->options->subsample : 1;
+    const struct pass pass = pass_of(&passes->scene, passes->ids[index]);
+    int step = pass.full_size ? passes->options->subsample : 1;
     int left = (int)window->left * step, right = left + window->width * step;
     int top = (int)window->top * step, bottom = top + window->height * step;
-    if (passes->has_camera && !pass->margin) {
+    if (passes->has_camera && !pass.margin) {
         left = clamp(left - passes->margin_x, 0, passes->width - 1);
         right = clamp(right - passes->margin_x, left + 1, passes->width);
         top = clamp(top - passes->margin_y, 0, passes->height - 1);
@@ -652,7 +689,7 @@ static enum result narrow(struct run *run, const struct pass_images *images, str
     struct image_window window;
     enum result result = pass_images_glossy(images, &window, err);
     for (int i = 0; !result && i < run->passes->job_count; i++)
-        if (pass_table[run->passes->ids[i]].glossy_part)
+        if (pass_of(&run->passes->scene, run->passes->ids[i]).glossy_part)
             result = add_glossy_window(run, i, &window, err);
     return result;
 }
@@ -665,7 +702,7 @@ static void hold(struct run *run)
         enum pass_id id = passes->ids[i];
         passes->jobs[i].held = (id != PASS_PHOTONS && !has_ended(passes, PASS_PHOTONS)) ||
                                (passes->margin && pass_table[id].margin && !run->camera_sought) ||
-                               (run->narrows && pass_table[id].glossy_part && !run->narrowed);
+                               (run->narrows && pass_of(&passes->scene, id).glossy_part && !run->narrowed);
     }
 }
 
@@ -817,6 +854,7 @@ static void note_margin(const struct passes *passes, struct error *note)
     struct error before = *note;
     bool asked = (options->margin > 0 || options->margin_px > 0) && passes->scene.glossy;
     const char *reason = options->switches->partial      ? "only a part of the picture is rendered"
+                         : passes->scene.focal_blur        ? "the camera has an aperture"
                          : depends_on_size(&passes->scene) ? "the scene depends on the picture's size"
                                                            : "the camera isn't a perspective one";
     if (asked && !passes->has_camera)
@@ -893,6 +931,8 @@ enum result passes_open(const struct passes_options *options, struct passes **op
         result = link_directories(passes, err);
     if (!result)
         result = prepare_environment(passes, err);
+    if (!result)
+        result = find_command(passes, err);
     return result ? result : prepare(passes, options->frames.first, note, err);
 }
 
@@ -1009,6 +1049,7 @@ enum result passes_close(struct passes *passes, struct error *err)
         return RESULT_OK;
     free_scene(passes);
     reads_free(&passes->reads);
+    text_list_free(&passes->command);
     free(passes->environment);
     free(passes->preload);
     enum result result = work_folder_remove(&passes->folder, err);

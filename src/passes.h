@@ -2,8 +2,8 @@
  *
  *   base         the scene with the glossy finishes' reflection switched off
  *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors and the rest is black, mirrored
- *                rays see the scene itself
- *   haze         where there is fog, a rainbow or media: the same without mirrors, which is what they add before the glossy
+ *                rays see the scene itself; with focal blur times the reflectance, averaged over the aperture
+ *   haze         where there is fog, a rainbow, media or focal blur: the same without mirrors, which is what they add before the glossy
  *                surface to the specular pass
  *   reflectance  glossy surfaces with their own reflection and no shading, under a sky of one half
  *   position     a, coded as a colour (position_code.h)
@@ -12,6 +12,7 @@
  *   exponent     the Phong exponent; the passes that only the reflection needs wait for it, to be rendered where
  *                something is glossy alone
  *   place        few positions, which tell the eye's where the passes are rendered with a margin
+ *   exponent-mean  the same antialiased, where an exponent is painted, so that its edges are as smooth as the picture's
  *   own          POV-Ray's own picture, small: what the parts must add up to
  */
 #ifndef POVGLOSS_PASSES_H
@@ -38,6 +39,7 @@ struct passes_options {
     int timeout_s;        /* for each POV-Ray process; 0: none */
     bool check;           /* POV-Ray's own picture is rendered, too, for passes_check_sum */
     bool rays;            /* the gbuffer gets the eye's rays and the mirrored ones; not with subsampling */
+    bool sandbox;         /* POV-Ray runs in one (sandbox.h) */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;

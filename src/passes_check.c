@@ -58,8 +58,11 @@ static void tell_names(struct check *check, const struct passes_found *found, bo
             *complete = false;
             SAY(check, " MISSING: %s (%s); if it goes by another name: --map %s=NAME", missing, group->meaning,
                 missing);
-        } else if (missing)
+        } else if (missing && group->without) {
             SAY(check, " missing: %s", group->without);
+        } else if (missing) {
+            SAY(check, " none");
+        }
         SAY(check, "\n");
     }
 }

@@ -11,7 +11,8 @@
 /* The image of each channel group in struct gbuffer. */
 static const size_t image_offsets[CHANNEL_GROUPS] = {
     offsetof(struct gbuffer, base),     offsetof(struct gbuffer, specular), offsetof(struct gbuffer, reflectance),
-    offsetof(struct gbuffer, position), offsetof(struct gbuffer, endpoint), offsetof(struct gbuffer, phong)};
+    offsetof(struct gbuffer, position), offsetof(struct gbuffer, endpoint), offsetof(struct gbuffer, phong),
+    offsetof(struct gbuffer, rays)};
 
 static enum result refuse_missing(const char *path, const struct channel_group *group, const char *missing,
                                   bool others, struct error *err)

@@ -51,15 +51,19 @@ static enum result read_messages(struct povray_job *job, struct error *err)
     return result;
 }
 
+enum result povray_missing(const char *program, struct error *err)
+{
+    return error_set(err, RESULT_POVRAY,
+                     "%s isn't in PATH: install POV-Ray 3.7 (on Debian: apt-get install povray povray-includes)", program);
+}
+
 static enum result start_job(struct povray_job *job, char *const *environment, struct error *err)
 {
     bool missing;
     job->start_s = timings_clock_s();
     enum result result = child_start(&job->child, job->arguments, job->folder, environment, &missing, err);
     if (result && missing)
-        return error_set(err, RESULT_POVRAY,
-                         "%s isn't in PATH: install POV-Ray 3.7 (on Debian: apt-get install povray povray-includes)",
-                         job->arguments[0]);
+        return povray_missing(job->arguments[0], err);
     job->started = !result;
     job->end_s = job->timeout_s > 0 ? job->start_s + job->timeout_s : INFINITY;
     return result;

@@ -39,6 +39,9 @@ MUST_CHECK enum result povray_run(struct povray_job *jobs, int count, int at_onc
                                   povray_progress *progress, void *context, int *failed, struct error *err);
 void povray_jobs_free(struct povray_job *jobs, int count);
 
+/* RESULT_POVRAY, and a message that the program isn't there. */
+enum result povray_missing(const char *program, struct error *err);
+
 /* Whether the banner among the messages names a version but 3.7, and which. */
 bool povray_is_other_version(const struct buffer *messages, char version[POVRAY_VERSION_SIZE]);
 

@@ -46,6 +46,7 @@ static const struct rules copy_rules[SCENE_COPY_COUNT] = {
     [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .marks = true, .pigments = true, .covers = true,
                                   .technical = true},
     [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .marks = true, .covers = true},
+    [SCENE_COPY_REFLECTION] = {"reflection", STATEMENTS_DROP, .marks = true, .covers = true},
     [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .coded = true, .covers = true, .technical = true},
     [SCENE_COPY_DISCOVERY] = {"discovery", STATEMENTS_STAY, .lights = true, .discovery = true},
 };
@@ -324,6 +325,28 @@ static enum result inherit_state(struct writer *writer, int token, const char *m
     return result;
 }
 
+/* Whether the copy may have painted exponents, which are in the pigments of one of its passes. */
+static bool paints(const struct writer *writer)
+{
+    return writer->scene->painted && writer->rules->pigments;
+}
+
+static bool is_argument(const struct scene_file *file, int token)
+{
+    return is_mark(file, token - 1, "(") || is_mark(file, token - 1, ",");
+}
+
+/* Appends the source of some tokens without its comments and lines. */
+static enum result add_tokens(struct writer *writer, int first, int last, struct error *err)
+{
+    const struct token *tokens = writer->file->list.tokens;
+    enum result result = RESULT_OK;
+    for (int i = first; !result && i <= last; i++)
+        result = buffer_printf(&writer->out, err, " %.*s", (int)(tokens[i].end - tokens[i].begin),
+                               writer->file->source.data + tokens[i].begin);
+    return result;
+}
+
 static const char *const object_words[] = {
     "bicubic_patch", "blob",          "box",          "cone",            "cubic",         "cylinder", "difference",
     "disc",          "height_field",  "intersection", "isosurface",      "julia_fractal", "lathe",    "merge",
@@ -334,7 +357,7 @@ static const char *const object_words[] = {
 /* A pigment inside one of these is a pattern or a value, not what an object looks like. */
 static const char *const pattern_words[] = {"function", "pigment",  "pigment_map", "pigment_pattern", "normal",
                                             "normal_map", "slope_map", "density",   "density_map",     "sky_sphere",
-                                            "camera",   NULL};
+                                            "camera",   "finish",  NULL};
 
 /* What a block that describes a surface may be part of: then it stays with that. */
 static const char *const surface_words[] = {"texture", "material", "texture_map", NULL};
@@ -461,9 +484,8 @@ static enum result move_cover(struct writer *writer, int token, int last, struct
         return RESULT_OK;
     writer->moved_pigment = pigment;
     enum result result = insert_before(writer, token, "#declare povgloss_cover =", err);
-    for (int i = pigment; !result && i <= end; i++)
-        result = buffer_printf(&writer->out, err, " %.*s", (int)(file->list.tokens[i].end - file->list.tokens[i].begin),
-                               file->source.data + file->list.tokens[i].begin);
+    if (!result)
+        result = add_tokens(writer, pigment, end, err);
     return result ? result : add_cover(writer, pigment, end, err);
 }
 
@@ -631,7 +653,7 @@ static enum result take_states(struct writer *writer, int directive, struct erro
 {
     const struct scene_file *file = writer->file;
     int macro = directive + 1, position = 0;
-    if (!is_directive(file, directive, "macro") || !has_fact(file, macro, NAME_SURFACE_MACRO))
+    if (!is_directive(file, directive, "macro") || !has_fact(file, macro, NAME_SURFACE_MACRO) || !is_call(file, macro))
         return RESULT_OK;
     int last = file->list.tokens[macro + 1].match;
     enum result result = insert_before(writer, last, "", err);
@@ -688,25 +710,28 @@ static bool makes_object(const struct scene *scene, const struct scene_name *nam
     return false;
 }
 
-/* `#declare T = Made()`, where textures, finishes or materials begin with T. */
+/* `#declare T = Made()`, where textures, finishes or materials begin with T, or where T may be a map of exponents. */
 static enum result declare_made(struct writer *writer, int directive, int *next, struct error *err)
 {
     const struct scene_file *file = writer->file;
     int name = declared_name(file, directive), value = name < 0 ? -1 : after_subscripts(file, name + 1) + 1;
-    if (name < 0 || !is_mark(file, value - 1, "=") || !has_fact(file, name, NAME_SURFACE) ||
-        !has_fact(file, value, NAME_DECLARED) || !is_call(file, value) ||
-        makes_object(writer->scene, name_at(file, value)))
+    bool surface = name >= 0 && has_fact(file, name, NAME_SURFACE);
+    if (name < 0 || !is_mark(file, value - 1, "=") || !has_fact(file, value, NAME_DECLARED) || !is_call(file, value))
         return RESULT_OK;
     int last = file->list.tokens[value + 1].match;
-    enum result result = insert_before(
-        writer, directive, "#declare povgloss_last = povgloss_none; #declare povgloss_value = povgloss_value + 1; ", err);
+    bool map = paints(writer) && is_mark(file, last + 1, ";");
+    if ((!surface && !map) || makes_object(writer->scene, name_at(file, value)))
+        return RESULT_OK;
+    enum result result = insert_before(writer, directive, surface ? "#declare povgloss_last = povgloss_none; " : "", err);
+    if (!result)
+        result = buffer_add_text(&writer->out, "#declare povgloss_value = povgloss_value + 1; ", err);
     if (!result)
         result = write_tokens(writer, value, last + 1, err);
     if (!result)
         result = insert_after(writer, last + is_mark(file, last + 1, ";"), " #declare povgloss_value = povgloss_value - 1; ",
                               err);
     *next = last + 1 + is_mark(file, last + 1, ";");
-    return result ? result : remember(writer, name, last, err);
+    return result || !surface ? result : remember(writer, name, last, err);
 }
 
 /* A material in a copy without textures: its interior is kept for the object, which may be clear. */
@@ -907,6 +932,45 @@ static bool keeps_state(const struct writer *writer, int name)
     return has_fact(writer->file, name, element ? NAME_SURFACE_ARRAY : NAME_DECLARED);
 }
 
+/* A pigment that isn't declared by a name, in a copy where nothing opaque has colours. Where exponents may be painted, one
+ * that may become a map stays, as the argument or, by povgloss_value, as the value of a macro, and over a map others don't
+ * count. */
+static enum result write_pigment(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    bool of_macro = paints(writer) && writer->in_macro && file->list.tokens[token].parent < 0;
+    bool over = paints(writer) && (of_macro || in_texture(file, token) || surface_before(writer, token) >= 0 ||
+                                   sibling_before(file, token, "finish") >= 0);
+    if (paints(writer) && (is_argument(file, token) || fills_array(file, token)))
+        return copy_to(writer, file->list.tokens[last].end, err);
+    enum result result = of_macro ? insert_before(writer, token, "#if (povgloss_value > 0)", err) : RESULT_OK;
+    if (!result && of_macro)
+        result = add_tokens(writer, token, last, err);
+    if (!result && of_macro)
+        result = buffer_add_text(&writer->out, " #else ", err);
+    if (!result && tracks(writer, token + 2, last) && !fills_array(file, token) && !in_triangle(file, token))
+        result = write_cover(writer, token, last, err);
+    else if (!result)
+        result = replace_block(writer, token, last, over ? "povgloss_repaint() " : "pigment { povgloss_pigment }", err);
+    return result || !of_macro ? result : insert_after(writer, last, " #end ", err);
+}
+
+/* `M(N(3))`, at N, where exponents may be painted: what N makes is a value. */
+static enum result write_argument(struct writer *writer, int token, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    if (!is_argument(file, token) || !is_call(file, token) || !has_fact(file, token, NAME_DECLARED))
+        return RESULT_OK;
+    int last = file->list.tokens[token + 1].match;
+    if (!is_mark(file, last + 1, ",") && !is_mark(file, last + 1, ")"))
+        return RESULT_OK;
+    enum result result = insert_before(writer, token, "#declare povgloss_value = povgloss_value + 1; ", err);
+    if (!result)
+        result = write_tokens(writer, token + 1, last + 1, err);
+    *next = last + 1;
+    return result ? result : insert_after(writer, last, " #declare povgloss_value = povgloss_value - 1; ", err);
+}
+
 /* A finish, texture or material; `name` is that of its declaration, or -1. */
 static enum result write_marked(struct writer *writer, int token, int last, int name, struct error *err)
 {
@@ -924,6 +988,8 @@ static enum result write_marked(struct writer *writer, int token, int last, int 
         result = finish     ? write_finish(writer, token, last, writer->in_default || keeps_state(writer, name), err)
                  : material ? write_material(writer, token, last, err)
                             : write_texture(writer, token, last, is_layer(file, token), err);
+    if (!result && finish && name < 0 && !writer->in_default && !is_argument(file, token) && paints(writer))
+        result = insert_after(writer, last, " povgloss_paint() ", err);
     if (!result && choice) {
         writer->given = false;
         result = insert_before(writer, last, " #declare povgloss_given = -1; ", err);
@@ -1151,7 +1217,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     const struct scene_file *file = writer->file;
     const struct rules *rules = writer->rules;
     int brace = token + 1, last = file->list.tokens[brace].match;
-    bool argument = is_mark(file, token - 1, "(") || is_mark(file, token - 1, ",");
+    bool argument = is_argument(file, token);
     bool value = is_mark(file, token - 1, "=") || (token == writer->value_end && is_word(file, token, "texture"));
     if (is_mark(file, token - 1, "="))
         writer->value_name = before_subscripts(file, token - 2);
@@ -1197,10 +1263,10 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         enum result result = write_marked(writer, token, last, value ? writer->value_name : -1, err);
         return result || !value ? result : remember(writer, writer->value_name, last, err);
     }
+    if (rules->pigments && pigment && !value)
+        return write_pigment(writer, token, last, err);
     if (pigment && !value && !filling && tracks(writer, token + 2, last) && !in_triangle(file, token))
         return write_cover(writer, token, last, err);
-    if (rules->pigments && pigment && !value)
-        return replace_block(writer, token, last, "pigment { povgloss_pigment }", err);
     if (rules->coded && is_word(file, token, "texture_list"))
         return write_texture_list(writer, token, last, err);
     if (rules->coded && is_word(file, token, "face_indices"))
@@ -1375,6 +1441,8 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
                                       " #error \"povgloss: this block isn't closed in the same file: close its brace "
                                       "there\\n\" ",
                                       err);
+            if (!result && !next && paints(writer))
+                result = write_argument(writer, i, &next, err);
             if (!result && !next && writer->rules->marks)
                 result = give_states(writer, i, &next, err);
             if (!result && !next && writer->rules->marks && !fills_array(file, i))

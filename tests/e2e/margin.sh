@@ -91,7 +91,6 @@ check "camera__by_a_name_that_is_turned" camera '#declare C = camera { location 
     camera { C rotate <5, 20, 3> translate 0.5*x }'
 check "camera__in_a_macro_with_conditions" camera '#macro C(A) camera { #if (A) location Eye(3) #end look_at y } #end C(1)'
 check "camera__askew" camera 'camera { location Eye(2) direction z right <-1.33, 0.1, 0.2> up <0, 1, 0.1> }'
-check "camera__with_focal_blur" camera 'camera { location Eye(2) look_at y aperture 0.01 blur_samples 4 focal_point 0 }'
 moving() {
     scene 'camera { location <2*clock, 2, -6> look_at y }' > scene.pov
     passes frame.exr scene.pov --margin 10% +KFF3 || return 1
@@ -99,6 +98,24 @@ moving() {
         { oiiotool --info -v frame1.exr frame3.exr | grep eye; return 1; }
 }
 check "animation__moving_camera__each_frame_its_own" moving
+
+painted() {
+    cat > scene.pov << 'POV'
+#version 3.7;
+#include "povgloss.inc"
+global_settings { assumed_gamma 1.0 }
+camera { location <0, 2, -6> look_at y }
+light_source { <-5, 8, -6> rgb 1 }
+plane { y, 0
+  texture { pigment { checker rgb 0.2 rgb 0.9 } finish { reflection 0.5 Gloss_Map(pigment { checker rgb 0 rgb 1 scale 2 }, 300, 30) } }
+}
+sphere { <0, 1, 0>, 1 pigment { rgb <1, 0, 0> } }
+POV
+    passes one.exr scene.pov --quiet && passes two.exr scene.pov --margin 5% --quiet && has two.exr 8 6 &&
+        oiiotool one.exr --ch phong.V -o one.phong.exr two.exr --ch phong.V --crop 160x120+0+0 -o two.phong.exr &&
+        rmse_below 1 one.phong.exr two.phong.exr
+}
+check "painted__exponents_with_a_margin__the_same_within_it" painted
 
 # none REASON CAMERA OPTION...: a warning with the reason, and a file without a margin.
 none() {
@@ -108,6 +125,8 @@ none() {
     ! oiiotool --info -v none.exr | grep -q 'pixel data origin'
 }
 check "orthographic" none "the camera isn't a perspective one" 'camera { orthographic location <0, 3, -6> look_at 0 angle 60 }'
+check "focal blur" none "the camera has an aperture" \
+    'camera { location <0, 2, -6> look_at y aperture 0.01 blur_samples 4 focal_point 0 }'
 check "fisheye" none "the camera isn't a perspective one" 'camera { fisheye location <0, 2, -6> look_at 0 angle 120 }'
 check "part of the picture" none "only a part of the picture" 'camera { location <0, 2, -6> look_at y }' +SR1
 check "size" none "the scene depends on the picture's size" \
@@ -118,6 +137,7 @@ refuses() {
     expect_status 2 && expect_message "$1" && expect_no_file refused.exr
 }
 check "subsampling" refuses "don't go together" render --margin 10% --subsample 2
+check "rays" refuses "don't go together" render --margin 10% --rays 4
 check "brute" refuses 'no --margin' brute --margin 10%
 check "a word" refuses '--margin wide: must be a whole number' render --margin wide
 check "too many percent" refuses '--margin 101: must be a number from 0 to 100' render --margin 101%

@@ -119,7 +119,7 @@ static void cli__wrong_command__is_refused(void **state)
 {
     (void)state;
     static const char *const lines[] = {
-        "",           "a",         "-o b.exr",      "a b -o c.exr",          "a -o",      "a -o b.exr --phong",
+        "",           "a",         "-o b.exr",      "a b --check",            "a -o",      "a -o b.exr --phong",
         "a -o b.jpg", "a -o b",    "a -o b.exr -x", "a -o b.exr --phongs 3", "a -o -",    "a -o b.png --layers",
     };
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
