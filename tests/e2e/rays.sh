@@ -43,6 +43,16 @@ by_passes_file() {
 }
 check 'passes__rays__in_the_file' by_passes_file
 
+joined_bands() {
+    local rows
+    for rows in '+SR1 +ER40' '+SR41 +ER72'; do
+        # shellcheck disable=SC2086
+        "$bin/povgloss" passes room.pov "$library" "${size[@]}" $rows --quiet --rays 4 -o "band${rows#*ER}.exr" || return 1
+    done
+    "$bin/glossfilter" band40.exr band72.exr --quiet --layers -o joined.exr && cmp joined.exr filtered.exr
+}
+check 'glossfilter__bands_with_rays__the_whole_picture' joined_bands
+
 other_exponent() {
     run "$bin/glossfilter" room.exr --phong 50 -o other.exr
     expect_status 0 && expect_message 'were drawn for another exponent than 50' || return 1
