@@ -228,8 +228,8 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
  * can't be blurred. POV-Ray's specular highlight is a power 1/roughness of the cosine about the half vector, whose angle is
  * half of that from the mirror direction: an exponent of 1/(4 roughness) there. phong_size is an exponent about the mirror
  * direction.
- * povgloss_counts is how many glossy textures came by (x), transparent ones (y), and objects by names of which neither is
- * known (z). */
+ * povgloss_counts is how many glossy textures came by (x), transparent ones (y), objects by names of which neither is known
+ * (z), and transparent mirrors without gloss (t). */
 static enum result add_state_macros(const struct scene *scene, struct buffer *text, struct error *err)
 {
     const struct gloss_choice *choice = scene->choice;
@@ -241,10 +241,12 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
         "#declare povgloss_default_state = povgloss_none; #declare povgloss_value = 0;\n"
         "#ifdef (povgloss_plain) #undef povgloss_plain #end\n"
-        "#declare povgloss_counts = <0, 0, 0>;\n"
+        "#declare povgloss_counts = <0, 0, 0, 0>;\n"
         "#macro povgloss_add(povgloss_c) #declare povgloss_counts = povgloss_counts + povgloss_c; #end\n"
         "#macro povgloss_count(povgloss_s)\n"
-        "  povgloss_add(<(povgloss_exponent(povgloss_s) >= 0), povgloss_clear(povgloss_s.t), 0>)\n"
+        "  #local povgloss_c = povgloss_clear(povgloss_s.t);\n"
+        "  #local povgloss_g = (povgloss_exponent(povgloss_s) >= 0);\n"
+        "  povgloss_add(<povgloss_g, povgloss_c, 0, (povgloss_c & !povgloss_g & povgloss_s.y > 0)>)\n"
         "#end\n"
         "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_default_state; #end\n"
         "#macro povgloss_upper_layer()\n"
@@ -402,7 +404,7 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
         result = buffer_printf(text, err,
                                "#declare povgloss_object = povgloss_nothing()\n"
                                "#declare povgloss_depth = 0;\n"
-                               "#declare povgloss_default_counts = <0, 0, 0>;\n"
+                               "#declare povgloss_default_counts = <0, 0, 0, 0>;\n"
                                "#macro povgloss_counted_default()\n"
                                "  #declare povgloss_default_counts =\n"
                                "    povgloss_default_counts + povgloss_counts - povgloss_before_default;\n"
@@ -421,24 +423,30 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                "#end\n"
                                "#macro povgloss_place(povgloss_f, povgloss_l)\n"
                                "  povgloss_leave()\n"
+                               "  povgloss_note_object(povgloss_f, povgloss_l)\n"
                                "  #if (povgloss_depth = 0 & povgloss_is_clear() & !povgloss_is_glossy()) %s\n"
-                               "  #else object { povgloss_object } povgloss_note_mixed(povgloss_f, povgloss_l) #end\n"
+                               "  #else object { povgloss_object } #end\n"
                                "#end\n"
-                               "#macro povgloss_note_mixed(povgloss_f, povgloss_l)\n"
+                               "#macro povgloss_note_object(povgloss_f, povgloss_l)\n"
                                "  #if (povgloss_depth = 0 & povgloss_is_glossy() & povgloss_counts.y > povgloss_before.y)\n"
-                               "    #ifndef (povgloss_noted)\n"
-                               "      #declare povgloss_noted = 1;\n"
-                               "      #fopen povgloss_mixed \"" PASS_MIXED_FILE "\" write\n"
-                               "      #write (povgloss_mixed, str(povgloss_f, 0, 0), \" \", str(povgloss_l, 0, 0))\n"
-                               "      #fclose povgloss_mixed\n"
-                               "    #end\n"
+                               "    povgloss_note(\"" PASS_MIXED_FILE "\", povgloss_f, povgloss_l)\n"
+                               "  #end\n"
+                               "  #if (povgloss_depth = 0 & povgloss_counts.t > povgloss_before.t)\n"
+                               "    povgloss_note(\"" PASS_GLASS_FILE "\", povgloss_f, povgloss_l)\n"
+                               "  #end\n"
+                               "#end\n"
+                               "#macro povgloss_note(povgloss_n, povgloss_f, povgloss_l)\n"
+                               "  #if (!file_exists(povgloss_n))\n"
+                               "    #fopen povgloss_file povgloss_n write\n"
+                               "    #write (povgloss_file, str(povgloss_f, 0, 0), \" \", str(povgloss_l, 0, 0))\n"
+                               "    #fclose povgloss_file\n"
                                "  #end\n"
                                "#end\n",
                                part->placed);
     if (!result && part->placed)
         result = buffer_printf(text, err,
                                "#macro povgloss_place_part(povgloss_f, povgloss_l)\n"
-                               "  povgloss_leave() povgloss_note_mixed(povgloss_f, povgloss_l)\n"
+                               "  povgloss_leave() povgloss_note_object(povgloss_f, povgloss_l)\n"
                                "  #if (povgloss_depth > 0) object { povgloss_object }\n"
                                "  #else #if (povgloss_is_glossy()) object { povgloss_object %s }\n"
                                "  #else %s #end #end\n"

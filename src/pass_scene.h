@@ -31,8 +31,9 @@ enum pass_id {
 
 #define PASS_PHOTONS_FILE "photons.ph"
 /* Left by the base pass in its folder: index of the file and line of the first object that holds something transparent and
- * something glossy. */
-#define PASS_MIXED_FILE "mixed.txt"
+ * something glossy, and of the first that holds a transparent mirror without gloss. */
+#define PASS_MIXED_FILE "povgloss_mixed.txt"
+#define PASS_GLASS_FILE "povgloss_glass.txt"
 #define PASS_PROBE_VIEW "view.inc"
 
 /* A copy of the scene in a union. */

@@ -510,23 +510,35 @@ static enum result remove_left(const struct passes *passes, enum pass_id id, con
     return result;
 }
 
-/* Adds to *note where glass and something glossy are one object. */
-static enum result note_mixed(const struct passes *passes, struct error *note, struct error *err)
+/* What the base pass may have noted of an object. */
+static const struct {
+    const char *file, *text;
+} object_notes[] = {
+    {PASS_MIXED_FILE, "this object holds something transparent and something glossy: reflections inside the transparent part "
+                      "are left out; make them objects of their own"},
+    {PASS_GLASS_FILE, "a glossy surface reflects nothing where it is seen by a reflection in this object and then through "
+                      "something transparent"},
+};
+enum { OBJECT_NOTES = sizeof object_notes / sizeof *object_notes };
+
+/* Adds those to *note. */
+static enum result note_objects(const struct passes *passes, struct error *note, struct error *err)
 {
-    char *path;
-    enum result result = text_printf(&path, err, "%s/%s/" PASS_MIXED_FILE, passes->folder.path, pass_table[PASS_BASE].name);
-    FILE *stream = result ? NULL : fopen(path, "r");
-    int file, line;
-    if (stream && fscanf(stream, "%d %d", &file, &line) == 2 && file >= 0 && file < passes->scene.file_count) {
-        size_t length = strlen(note->text);
-        snprintf(note->text + length, sizeof note->text - length,
-                 "%s%s:%d: this object holds something transparent and something glossy: reflections inside the "
-                 "transparent part are left out; make them objects of their own",
-                 length ? "; " : "", passes->scene.files[file].path, line);
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < OBJECT_NOTES; i++) {
+        char *path;
+        result = text_printf(&path, err, "%s/%s/%s", passes->folder.path, pass_table[PASS_BASE].name, object_notes[i].file);
+        FILE *stream = result ? NULL : fopen(path, "r");
+        int file, line;
+        if (stream && fscanf(stream, "%d %d", &file, &line) == 2 && file >= 0 && file < passes->scene.file_count) {
+            size_t length = strlen(note->text);
+            snprintf(note->text + length, sizeof note->text - length, "%s%s:%d: %s", length ? "; " : "",
+                     passes->scene.files[file].path, line, object_notes[i].text);
+        }
+        if (stream)
+            fclose(stream);
+        free(path);
     }
-    if (stream)
-        fclose(stream);
-    free(path);
     return result;
 }
 
@@ -618,8 +630,8 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     if (!result && photons)
         result = remove_left(passes, PASS_PHOTONS, PASS_PHOTONS_FILE, err);
-    if (!result)
-        result = remove_left(passes, PASS_BASE, PASS_MIXED_FILE, err);
+    for (int i = 0; !result && i < OBJECT_NOTES; i++)
+        result = remove_left(passes, PASS_BASE, object_notes[i].file, err);
     if (!result)
         result = povray_run(passes->jobs, passes->job_count, at_once, passes->environment, options->progress,
                             options->progress_context, &failed, err);
@@ -810,7 +822,7 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     if (!result)
         note_version(passes, note);
     if (!result)
-        result = note_mixed(passes, note, err);
+        result = note_objects(passes, note, err);
     if (!result)
         result = remove_images(passes, &images, err);
     if (result)

@@ -8,6 +8,7 @@
 #include "lobe.h"
 #include "scene_surfaces.h"
 #include "scene_tokens.h"
+#include "scene_unions.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -460,6 +461,8 @@ enum result scene_settle(struct scene *scene, struct error *err)
     scene_note_surfaces(scene);
     note_clear_names(scene);
     enum result result = count_clear(scene, err);
+    if (!result)
+        result = scene_note_unions(scene, err);
     return result ? result : note_choice(scene, scene->choice, err);
 }
 
@@ -491,6 +494,7 @@ void scene_free(struct scene *scene)
         buffer_free(&scene->files[i].source);
         token_list_free(&scene->files[i].list);
         free(scene->files[i].clear);
+        free(scene->files[i].object_unions);
     }
     free(scene->files);
     for (int i = 0; i < scene->found_count; i++)

@@ -23,6 +23,7 @@ struct scene_file {
     struct buffer source;
     struct token_list list;
     int *clear; /* for each token, how many before it name something that may be transparent */
+    bool *object_unions; /* for each token, whether it opens a union of nothing but objects, some perhaps transparent */
     struct scene_include *includes;
     int include_count;
 };

@@ -7,6 +7,7 @@
 
 #include "scene_discover.h"
 #include "scene_tokens.h"
+#include "scene_unions.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -73,8 +74,6 @@ struct writer {
     int end;         /* the token where the block ends that is being written; branches of a conditional may open it, too */
     int object_end;  /* the same of the last block that write_object wrote */
     int moved_pigment; /* the last that was written before its turn */
-    int asked_union; /* the last brace that `splits` was asked about, and what it said */
-    bool asked_splits;
     bool given;      /* in the declaration of a name that the user chose to be glossy */
     bool in_macro;
     bool in_default; /* in the braces of a #default */
@@ -817,33 +816,8 @@ static enum result add_part_counts(struct writer *writer, int token, struct erro
         result = buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #else ", part,
                                part);
     if (!result)
-        result = buffer_add_text(&writer->out, "povgloss_add(<0, 0, 1>) ", err);
+        result = buffer_add_text(&writer->out, "povgloss_add(<0, 0, 1, 0>) ", err);
     return result || !known ? result : buffer_add_text(&writer->out, "#end ", err);
-}
-
-/* Whether all that the union at `brace` holds is blocks of objects, which have their own surfaces. */
-static bool holds_objects_only(const struct writer *writer, int brace)
-{
-    static const char *const unknown[] = {"include", "macro", "default", NULL};
-    const struct scene_file *file = writer->file;
-    int last = file->list.tokens[brace].match, i = brace + 1;
-    while (i < last) {
-        if (file->list.tokens[i].kind == TOKEN_DIRECTIVE) {
-            for (int word = 0; unknown[word]; word++)
-                if (is_directive(file, i, unknown[word]))
-                    return false;
-            i = directive_end(file, i, last);
-        } else if (opens_block(file, i)) {
-            int end = file->list.tokens[i + 1].match;
-            if (in_list(file, i, texture_words) || file->list.tokens[end].match != i + 1)
-                return false;
-            i = end + 1;
-        } else if (is_mark(file, i + 1, "(") && has_fact(file, i, NAME_DECLARED))
-            return false;
-        else
-            i++;
-    }
-    return true;
 }
 
 /* Whether the object between these tokens may be transparent. */
@@ -852,30 +826,25 @@ static bool may_be_placed(const struct writer *writer, int first, int last)
     return writer->scene->clear_default || tracks(writer, first, last);
 }
 
-/* Whether the objects in these braces are placed one by one: those of a union of the top level, or in such a union, that may
- * hold something transparent. */
-static bool splits(struct writer *writer, int brace)
+/* Whether the objects in these braces are placed one by one. */
+static bool splits(const struct writer *writer, int brace)
 {
-    const struct scene_file *file = writer->file;
-    if (brace == writer->asked_union)
-        return writer->asked_splits;
-    if (brace <= 0 || !is_word(file, brace - 1, "union") || writer->in_macro || file->list.tokens[brace].match < 0 ||
-        is_mark(file, brace - 2, "=") || is_mark(file, brace - 2, "(") || is_mark(file, brace - 2, ","))
-        return false;
-    int last = file->list.tokens[brace].match, parent = file->list.tokens[brace].parent;
-    bool found = file->list.tokens[last].match == brace && may_be_placed(writer, brace + 1, last) &&
-                 holds_objects_only(writer, brace) && (parent < 0 || splits(writer, parent));
-    writer->asked_union = brace;
-    return writer->asked_splits = found;
+    return writer->rules->places && union_splits(writer->file, brace, writer->in_macro);
 }
 
-/* A union whose objects are placed one by one is itself in both copies. */
+/* Whether the block at `token` stands in no other and is no value. */
+static bool is_at_top(const struct writer *writer, int token)
+{
+    return writer->file->list.tokens[token].parent < 0 && !writer->in_macro && !is_mark(writer->file, token - 1, "=");
+}
+
+/* A union whose objects are placed one by one is itself in both copies, and so is what has its name. */
 static enum result write_split(struct writer *writer, int token, int last, struct error *err)
 {
-    bool top = writer->file->list.tokens[token].parent < 0;
+    bool top = is_at_top(writer, token);
     enum result result = insert_before(writer, token, top ? "povgloss_leave_copy() " : "", err);
     if (!result)
-        result = insert_after(writer, token + 1, " povgloss_nothing() ", err);
+        result = insert_after(writer, token + 1, is_word(writer->file, token, "union") ? " povgloss_nothing() " : "", err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     return result ? result : insert_after(writer, last, top ? " povgloss_enter_copy() " : "", err);
@@ -1238,7 +1207,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     bool named = value && has_fact(file, writer->value_name, NAME_DECLARED) &&
                  !is_mark(file, writer->value_name + 1, "[");
     bool placed = !value && file->list.tokens[token].parent < 0 && !argument && may_be_placed(writer, token + 2, last);
-    if (rules->places && !value && splits(writer, brace))
+    if (splits(writer, brace) || (rules->places && is_split_object(file, token)))
         return write_split(writer, token, last, err);
     placed |= !value && splits(writer, file->list.tokens[token].parent);
     if (rules->places && (named || placed) && in_list(file, token, object_words))
@@ -1483,8 +1452,7 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
         const struct scene_file *file = &scene->files[i];
         struct writer writer = {
             .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy,
-            .value_end = -1, .end = file->list.count, .object_end = -1, .moved_pigment = -1,
-            .asked_union = -1};
+            .value_end = -1, .end = file->list.count, .object_end = -1, .moved_pigment = -1};
         /* POV-Ray takes a byte order mark in a scene but not in an include file, which every copy is. */
         if (file->source.size >= 3 && !memcmp(file->source.data, "\xEF\xBB\xBF", 3))
             writer.at = 3;

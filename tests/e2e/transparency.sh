@@ -130,6 +130,27 @@ union {
   rotate y*20
 }
 POV
+scene "unions of such things by names and macros" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.2 } }
+#macro Gold() texture { pigment { rgb <0.5, 0.3, 0.1> } finish { reflection 0.5 Gloss(50) } } #end
+#declare Things = union {
+  sphere { <0, 0.5, 0>, 0.5 pigment { rgbf <0.9, 1, 0.9, 0.9> } finish { reflection 0.2 } interior { ior 1.5 } }
+  union { sphere { <-0.8, 0.2, -0.9>, 0.2 } cone { <-0.8, 0.4, -0.9>, 0.1, <-0.8, 0.7, -0.9>, 0 } Gold() }
+  box { <0.5, 0, 0.3>, <0.9, 0.5, 0.7> pigment { rgb y } }
+};
+#macro Pair(Ior)
+  union {
+    object { Things translate z }
+    #local Tall = cylinder { 0, y*1.5, 0.2 };
+    object { Tall texture { pigment { rgbt 0.8 } finish { reflection 0.1 } } interior { ior Ior } }
+  }
+#end
+object { Things scale 1.3 translate <1.3, 0, -1> }
+union {
+  object { Pair(1.3) translate -x*0.4 }
+  object { Things rotate y*70 translate -x*1.7 }
+}
+POV
 gloss=(--gloss all=300)
 scene "glass without a name, its finish before its pigment" << 'POV'
 object { Floor pigment { rgb 0.3 } finish { reflection 0.5 } }
