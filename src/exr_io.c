@@ -7,6 +7,7 @@
 
 #include "bands.h"
 #include "input_file.h"
+#include "mem.h"
 #include "output_file.h"
 
 #include <assert.h>
@@ -499,6 +500,9 @@ static enum result read_contents(struct reader *reader, struct exr_contents *con
         result = read_attributes(&reader->parts[i], &contents->attributes, err);
     if (!result)
         result = check_chunks(reader, err);
+    /* Whoever asks for the file holds its pixels twice at least. */
+    if (!result)
+        result = memory_check(2.0 * (double)sizeof(float) * reader->width * reader->height * reader->channels, err);
     if (!result)
         result = image_alloc(&contents->image, reader->width, reader->height, reader->channels, err);
     if (!result)
