@@ -137,19 +137,6 @@ static enum result clear_haze(const struct pass_images *images, struct image *sp
     return result;
 }
 
-/* A mixed texture dims the mirror by its share, as it dims the reflectance. */
-static void unmix_specular(struct image *specular, const struct image *exponents, double gamma)
-{
-    for (int channel = 0; same_size(specular, exponents) && channel < 3; channel++)
-        for (int y = 0; y < specular->height; y++) {
-            const float *share = image_row(exponents, 2, y);
-            float *row = image_row(specular, channel, y);
-            for (int x = 0; x < specular->width; x++)
-                if (share[x] > LEAST_SHARE && share[x] < 0.9999f)
-                    row[x] = (float)gamma_decode(gamma, gamma_encode(gamma, (double)row[x]) / (double)share[x]);
-        }
-}
-
 /* The exponent of a pixel whose code is (high, low, 1), see mirror_exponent. */
 static float decode_exponent(double high, double low)
 {
@@ -205,29 +192,33 @@ static void fill_exponents(struct gbuffer *gbuffer, double single, const struct 
         }
 }
 
-/* With focal blur the specular pass holds L0 as the surface reflects it, averaged over the aperture and as large as the
- * base: divided by the reflectance, which is averaged alike, it is L0 again. */
+/* A weighted specular pass holds L0 as the surfaces reflect it: divided by their reflectivity, mixed alike, it is L0 again. A
+ * pixel that reflects nothing isn't glossy. */
 static enum result divide_specular(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
 {
-    const double gamma = images->scene->working_gamma, least = 1e-4;
-    const int step = images->subsample;
-    const struct image *reflectance = &gbuffer->reflectance;
-    struct image divided;
-    enum result result = image_alloc(&divided, reflectance->width / step, reflectance->height / step, 3, err);
-    for (int channel = 0; !result && channel < 3; channel++)
-        for (int y = 0; y < divided.height; y++)
-            for (int x = 0; x < divided.width; x++) {
-                double reflected = 0, reflectivity = 0;
-                for (int v = y * step; v < (y + 1) * step; v++)
-                    for (int u = x * step; u < (x + 1) * step; u++) {
-                        reflected += gamma_encode(gamma, (double)image_row(&gbuffer->specular, channel, v)[u]);
-                        reflectivity += (double)image_row(reflectance, channel, v)[u];
-                    }
-                bool reflects = reflectivity > least * step * step;
-                image_row(&divided, channel, y)[x] = reflects ? (float)gamma_decode(gamma, reflected / reflectivity) : 0;
+    const double gamma = images->scene->working_gamma;
+    const float least = 1e-4f;
+    struct image reflectivity = {0};
+    enum result result = pass_images_radiance(images, PASS_REFLECTIVITY, &reflectivity, err);
+    if (!result && !same_size(&reflectivity, &gbuffer->specular))
+        result = error_set(err, RESULT_DATA,
+                           "%s: POV-Ray's images of the specular and the reflectivity pass are of different sizes", images->name);
+    if (!result)
+        scale_reflectance(&reflectivity, gamma);
+    for (int y = 0; !result && y < reflectivity.height; y++)
+        for (int x = 0; x < reflectivity.width; x++) {
+            bool reflects = false;
+            for (int channel = 0; channel < 3; channel++) {
+                float *radiance = &image_row(&gbuffer->specular, channel, y)[x];
+                float weight = image_row(&reflectivity, channel, y)[x];
+                bool here = weight > least;
+                *radiance = here ? (float)gamma_decode(gamma, gamma_encode(gamma, (double)*radiance) / (double)weight) : 0;
+                reflects |= here;
             }
-    image_free(&gbuffer->specular);
-    gbuffer->specular = divided;
+            if (!reflects)
+                image_row(&gbuffer->phong, 0, y)[x] = 0;
+        }
+    image_free(&reflectivity);
     return result;
 }
 
@@ -420,19 +411,17 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         result = alloc_exponents(gbuffer, &codes, err);
     if (!result)
         scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
-    if (!result && images->scene->focal_blur && same_size(&gbuffer->specular, &gbuffer->reflectance))
-        result = divide_specular(images, gbuffer, err);
     if (!result)
         result = check_sizes(images, gbuffer, &directions, err);
     if (!result) {
         fill_exponents(gbuffer, images->scene->exponent, &codes, &means);
-        if (!images->scene->focal_blur)
-            unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
+        if (pass_weights_specular(images->scene))
+            result = divide_specular(images, gbuffer, err);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
         eye_find(gbuffer, &directions);
-        if (images->scene->focal_blur)
-            result = widen_surfaces(gbuffer, err);
     }
+    if (!result && images->scene->focal_blur)
+        result = widen_surfaces(gbuffer, err);
     if (!result) {
         clear_unused(gbuffer);
         note_invisible(gbuffer, images->name, note);

@@ -73,6 +73,11 @@ const struct pass pass_table[PASS_COUNT] = {
                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
                           .second = {.copy = -1},
                           .trailer = sky_half},
+    [PASS_REFLECTIVITY] = {.name = "reflectivity",
+                           .glossy_part = true,
+                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
+                           .second = {.copy = -1},
+                           .trailer = sky_half},
     [PASS_POSITION] = {.name = "position",
                        .glossy_part = true,
                        .codes = true,
@@ -537,6 +542,11 @@ static bool scene_mirrors_gloss(const struct scene *scene)
     return scene->plain_mirrors && (!scene->choice->all || may_hold_clear(scene));
 }
 
+bool pass_weights_specular(const struct scene *scene)
+{
+    return scene->focal_blur || scene->mixes;
+}
+
 struct pass pass_of(const struct scene *scene, enum pass_id id)
 {
     struct pass pass = pass_table[id];
@@ -548,15 +558,13 @@ struct pass pass_of(const struct scene *scene, enum pass_id id)
         pass.first = (struct scene_part){.copy = SCENE_COPY_BASE, .finish_end = end_base};
         pass.second.copy = -1;
     }
-    /* An aperture mixes what several points of the glossy surfaces reflect, each by its own reflectivity, and the sky. */
-    if (scene->focal_blur && (id == PASS_SPECULAR || id == PASS_HAZE)) {
-        pass.full_size = true;
+    if (pass_weights_specular(scene) && (id == PASS_SPECULAR || id == PASS_HAZE)) {
         pass.mirror_colour = NULL;
         pass.second.copy = SCENE_COPY_REFLECTION;
         pass.second.finish_end = id == PASS_HAZE ? end_haze_of_reflection : end_reflection;
     }
-    /* It also sees glossy surfaces beyond the silhouettes of the exponent pass, which has none. */
-    if (scene->focal_blur && pass.full_size)
+    /* An aperture sees glossy surfaces beyond the silhouettes of the exponent pass, which has none. */
+    if (scene->focal_blur && !pass.codes)
         pass.glossy_part = false;
     return pass;
 }
@@ -608,9 +616,9 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
             text, "#macro povgloss_nothing() sphere { 0, 1e-6 hollow no_image no_reflection no_shadow no_radiosity } #end\n", err);
     if (!result)
         result = buffer_add_text(text, "#declare povgloss_default = texture { pigment { rgb 0 } };\n", err);
-    /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
+    /* Codes must not be averaged by focal blur. */
     if (!result)
-        result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass.full_size ? "" : "aperture 0");
+        result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass.codes ? "aperture 0" : "");
     if (!result)
         result = add_photon_macro(id, text, err);
     if (!result)
@@ -642,7 +650,9 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
     if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;
     /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye, too. */
-    if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line && !scene->focal_blur)
+    if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line && !pass_weights_specular(scene))
+        return false;
+    if (id == PASS_REFLECTIVITY && !pass_weights_specular(scene))
         return false;
     return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
 }

@@ -15,6 +15,7 @@ enum pass_id {
     PASS_SPECULAR,
     PASS_HAZE,
     PASS_REFLECTANCE,
+    PASS_REFLECTIVITY, /* the same by one ray a pixel: what L0 was multiplied by in the specular pass */
     PASS_POSITION,
     PASS_POSITION_LOW,
     PASS_ENDPOINT,
@@ -66,9 +67,13 @@ extern const struct pass pass_table[PASS_COUNT];
 /* The pass as this scene takes it. */
 struct pass pass_of(const struct scene *scene, enum pass_id id);
 
+/* Whether the specular pass holds L0 times the reflectivity: a pixel of focal blur or of a mixed texture is the sum of what
+ * several glossy surfaces reflect. */
+bool pass_weights_specular(const struct scene *scene);
+
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
- * where it has one, or media, or focal blur, which mixes the sky into glossy surfaces; antialiased exponents where one is
- * painted. */
+ * where it has one, or media, or a weighted specular pass, which then has a reflectivity, too; antialiased exponents where one
+ * is painted. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Whether the exponent pass says more than where something is glossy: there are several exponents, a texture may mix a

@@ -310,7 +310,7 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     if (!result && id == PASS_OWN)
         result = add_own_size(passes, arguments, err);
     /* Reflectivities are small, and their edges show as much as those of the picture. */
-    if (!result && pass.full_size && (id == PASS_REFLECTANCE || id == PASS_SPECULAR) && switches->antialias)
+    if (!result && id == PASS_REFLECTANCE && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
     static const char *const smooth[] = {"+A0.0", "+AM1", "+R3", "-J", "Antialias_Gamma=1.0", NULL};
     for (int i = 0; !result && pass.smooth && smooth[i]; i++)

@@ -2,10 +2,11 @@
  *
  *   base         the scene with the glossy finishes' reflection switched off
  *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors and the rest is black, mirrored
- *                rays see the scene itself; with focal blur times the reflectance, averaged over the aperture
- *   haze         where there is fog, a rainbow, media or focal blur: the same without mirrors, which is what they add before the glossy
+ *                rays see the scene itself; with focal blur and mixed textures times the reflectivity
+ *   haze         where there is fog, a rainbow or media, or L0 is weighted: the same without mirrors, which is what they add before the glossy
  *                surface to the specular pass
  *   reflectance  glossy surfaces with their own reflection and no shading, under a sky of one half
+ *   reflectivity the same by one ray a pixel, by which a weighted L0 is divided
  *   position     a, coded as a colour (position_code.h)
  *   endpoint     b: mirrors seen by the camera, coded positions seen by mirrored rays, coded directions where they miss
  *   direction    the camera's rays, coded: they give the eye and the view angle whatever the camera
