@@ -5,11 +5,13 @@
 #include <stdatomic.h>
 #include <stddef.h>
 
-static volatile sig_atomic_t caught;
+/* Other threads than the one that the handler interrupts read it. Where ints are lock-free a handler may write it. */
+static atomic_int caught;
+_Static_assert(ATOMIC_INT_LOCK_FREE == 2, "a handler may not write an atomic int");
 
 static void remember(int signal_number)
 {
-    caught = signal_number;
+    atomic_store(&caught, signal_number);
 }
 
 void interrupt_install(void)
@@ -30,14 +32,15 @@ void interrupt_stop(bool stop)
 
 int interrupt_signal(void)
 {
-    int signal = caught;
+    int signal = atomic_load_explicit(&caught, memory_order_relaxed);
     return signal ? signal : stopped ? SIGTERM : 0;
 }
 
 void interrupt_reraise(void)
 {
-    if (!caught)
+    int signal_number = interrupt_signal();
+    if (!signal_number)
         return;
-    signal(caught, SIG_DFL);
-    raise(caught);
+    signal(signal_number, SIG_DFL);
+    raise(signal_number);
 }
