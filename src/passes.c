@@ -252,25 +252,6 @@ static enum result scene_arguments(const struct passes *passes, int frame, struc
     return result;
 }
 
-/* A camera made of a mesh has a face for each pixel; image_width is for the proportion, or for something drawn by pixels. */
-static bool file_depends_on_size(const struct scene_file *file)
-{
-    const struct token *tokens = file->list.tokens;
-    for (int i = 0; i < file->list.count; i++) {
-        if (token_is(&file->source, &tokens[i], TOKEN_WORD, "mesh_camera"))
-            return true;
-        bool width = token_is(&file->source, &tokens[i], TOKEN_WORD, "image_width");
-        if (!width && !token_is(&file->source, &tokens[i], TOKEN_WORD, "image_height"))
-            continue;
-        const char *other = width ? "image_height" : "image_width";
-        if (i + 2 >= file->list.count || !token_is(&file->source, &tokens[i + 1], TOKEN_MARK, "/") ||
-            !token_is(&file->source, &tokens[i + 2], TOKEN_WORD, other))
-            return true;
-        i += 2;
-    }
-    return false;
-}
-
 static enum result add_size(struct text_list *arguments, int width, int height, struct error *err)
 {
     enum result result = text_list_add(arguments, err, "+W%d", width);
@@ -284,10 +265,7 @@ static enum result add_own_size(const struct passes *passes, struct text_list *a
     const struct povray_switches *switches = passes->options->switches;
     int width = switches->width ? switches->width : POVRAY_WIDTH;
     int height = switches->height ? switches->height : POVRAY_HEIGHT;
-    bool depends = false;
-    for (int i = 0; i < passes->scene.file_count; i++)
-        depends |= file_depends_on_size(&passes->scene.files[i]);
-    if (!depends)
+    if (!passes->scene.depends_on_size)
         picture_check_size(width, height, &width, &height);
     return add_size(arguments, width, height, err);
 }
