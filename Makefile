@@ -164,6 +164,10 @@ build/mitsuba/bin/python:
 slurm: ## install Slurm and GNU parallel, for the test of scripts/povgloss-array.sbatch
 	$(MAKE) --no-print-directory deps PACKAGES='slurm-wlm parallel'
 
+.PHONY: trade
+trade: all ## measure error and time of every method (hours): docs/trade.png, the tables of docs/accuracy.md
+	scripts/trade.sh
+
 .PHONY: demo
 demo: build/demo.png ## render the demo scene
 	@echo "The picture is build/demo.png"

@@ -38,8 +38,8 @@ static struct tap tap_read(const struct gbuffer *gbuffer, const struct image *gl
     return tap;
 }
 
-/* Unit direction from a to the tap's b; false where there is none. */
-static bool direction_to(const float a[3], const struct tap *tap, double direction[3])
+/* Unit direction from a to the tap's b, and its distance, infinite for a direction; 0: none. */
+static double direction_to(const float a[3], const struct tap *tap, double direction[3])
 {
     double square = 0;
     for (int i = 0; i < 3; i++) {
@@ -48,15 +48,13 @@ static bool direction_to(const float a[3], const struct tap *tap, double directi
     }
     for (int i = 0; i < 3; i++)
         direction[i] /= sqrt(square);
-    return square > 0;
+    return square > 0 ? sqrt(square) / (double)tap->b[3] : 0;
 }
 
-/* tan^2(theta) between the unit direction and that from a to the tap's b; infinite from 90 degrees on. */
-static double tan_square(const float a[3], const double direction[3], const struct tap *tap)
+/* tan^2(theta) between two unit directions; infinite from 90 degrees on. */
+static double tan_square(const double direction[3], const double other[3])
 {
-    double other[3], cosine = 0, square = 0;
-    if (!direction_to(a, tap, other))
-        return INFINITY;
+    double cosine = 0, square = 0;
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         double sine = direction[j] * other[k] - direction[k] * other[j];
@@ -64,6 +62,12 @@ static double tan_square(const float a[3], const double direction[3], const stru
         square += sine * sine;
     }
     return cosine > 0 ? square / (cosine * cosine) : INFINITY;
+}
+
+/* 1 for the same distance, also for two directions; 0 between a direction and a position. */
+static double nearness(double distance, double other)
+{
+    return distance == other ? 1 : fmin(distance, other) / fmax(distance, other);
 }
 
 static const struct tap *tap_at(const struct field *field, int x, int y)
@@ -77,23 +81,25 @@ static void correct(const struct field *field, int x, int y)
 {
     const struct tap *own = tap_at(field, x, y);
     static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    double direction[3], least = INFINITY, sums[4] = {0};
-    if (own->phong == 0 || !direction_to(own->a, own, direction))
+    double direction[3], other[3], least = INFINITY, sums[4] = {0};
+    double distance = own->phong > 0 ? direction_to(own->a, own, direction) : 0;
+    if (distance == 0)
         return;
     for (int n = 0; n < 4; n++) {
         const struct tap *tap = tap_at(field, x + neighbours[n][0], y + neighbours[n][1]);
-        if (tap->phong > 0)
-            least = fmin(least, tan_square(own->a, direction, tap));
+        if (tap->phong > 0 && direction_to(own->a, tap, other) > 0)
+            least = fmin(least, tan_square(direction, other));
     }
     double spread = 2 / (double)own->phong + (isinf(least) ? 0 : 9 * least / (field->rays * field->rays));
     const int reach = (int)ceil(field->tent) - 1;
     for (int v = y - reach; v <= y + reach; v++)
         for (int u = x - reach; u <= x + reach; u++) {
             const struct tap *tap = tap_at(field, u, v);
-            if (tap->rays == 0 || tap->phong != own->phong)
+            double other_distance = tap->phong == own->phong ? direction_to(own->a, tap, other) : 0;
+            if (tap->rays == 0 || other_distance == 0)
                 continue;
             double weight = (double)tap->rays * (1 - abs(u - x) / field->tent) * (1 - abs(v - y) / field->tent);
-            weight *= exp(-0.5 * tan_square(own->a, direction, tap) / spread);
+            weight *= nearness(distance, other_distance) * exp(-0.5 * tan_square(direction, other) / spread);
             for (int i = 0; i < 3; i++)
                 sums[i] += weight * (double)tap->residual[i];
             sums[3] += weight;

@@ -5,10 +5,12 @@
  * variate of M:
  *
  *   L(x) = F(x) + sum w n (M - F)(x') / sum w n
- *   w    = (1 - |dx|/T)+ (1 - |dy|/T)+ exp(-tan^2(theta) / (2 s^2)),  T = 1 + 9/sqrt(N) pixels,  s^2 = 2/p + (3g/N)^2
+ *   w    = (1 - |dx|/T)+ (1 - |dy|/T)+ exp(-tan^2(theta) / (2 s^2)) min(r, r') / max(r, r'),
+ *   T    = 1 + 9/sqrt(N) pixels,  s^2 = 2/p + (3g/N)^2
  *
  * n: how many of the pixel's rays count; theta: the angle at a(x) between b(x) and b(x'), as in the filter; g: its least
- * tan to one of the four next pixels. exp(-theta^2 p / 4) is how much the lobes of x and x' have in common; a lobe of less
+ * tan to one of the four next pixels; r, r': the distances of b(x) and b(x') from a(x), for what is right at a contact says
+ * nothing of the wall behind. exp(-theta^2 p / 4) is how much the lobes of x and x' have in common; a lobe of less
  * than 3/N pixels counts as one of these, for few rays need many neighbours. T and s make the number of rays in the mean
  * grow slowly with N, and its window shrink, so that L goes to the truth.
  */

@@ -3,12 +3,13 @@
 
 #include <string.h>
 
-enum { PLANES = 6 };
+enum { PLANES = 7 };
 
 static void list_planes(struct gbuffer *gbuffer, struct image *planes[PLANES])
 {
     struct image *const all[PLANES] = {&gbuffer->base,     &gbuffer->specular, &gbuffer->reflectance,
-                                       &gbuffer->position, &gbuffer->endpoint, &gbuffer->phong};
+                                       &gbuffer->position, &gbuffer->endpoint, &gbuffer->phong,
+                                       &gbuffer->rays};
     memcpy(planes, all, sizeof all);
 }
 

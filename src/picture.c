@@ -64,6 +64,8 @@ enum result picture_reduce(const struct gbuffer *gbuffer, int step, struct gbuff
         result = reduce(&gbuffer->endpoint, step, &reduced->endpoint, err);
     if (!result)
         result = reduce(&gbuffer->phong, step, &reduced->phong, err);
+    if (!result)
+        result = reduce(&gbuffer->rays, step, &reduced->rays, err);
     if (result)
         gbuffer_free(reduced);
     return result;

@@ -151,7 +151,7 @@ array_with_a_killed_task() {
     local job i status
     job=$(sbatch --parsable --array=1-12 povgloss-array.sbatch frames turning.ini "${size[@]}" --no-check -o turning.png) || return
     for ((i = 0; i < 1200; i++)); do
-        [ "$(squeue -h -j "${job}_5" -o %T 2> /dev/null)" = RUNNING ] && break
+        pgrep -f '^povgloss render turning.ini .*[+]SF5 ' > /dev/null && break
         sleep 0.1
     done
     scancel "${job}_5"

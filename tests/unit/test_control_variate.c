@@ -69,6 +69,7 @@ static void control_variate__single_residual__weight_of_the_formula(void **state
         for (int x = 0; x < WIDTH; x++) {
             double dx = x - 18, dy = y - 16, tangent = (dx * dx + dy * dy) * least;
             double weight = fmax(1 - fabs(dx) / tent, 0) * fmax(1 - fabs(dy) / tent, 0) * exp(-tangent / 2 / spread);
+            weight /= sqrt(1 + tangent); /* b(x') is farther away */
             bool bright = x == 20 && y == 15;
             sum += weight * (bright ? 3 : 4);
             own += bright ? weight * 3 : 0;
@@ -95,6 +96,22 @@ static void control_variate__pixel_without_rays__neighbours_of_its_exponent(void
     assert_near(image_row(&glossy, 0, 16)[21], 1.25, 1e-6);
     assert_near(image_row(&glossy, 0, 4)[4], 1, 0);
     assert_near(image_row(&glossy, 0, 9)[9], 1, 0);
+    end(&gbuffer, &glossy);
+}
+
+/* A pixel at a contact, whose ray ends near by: what is right there is not mixed with the wall behind. */
+static void control_variate__nearer_endpoint__little_of_the_farther_ones(void **state)
+{
+    (void)state;
+    struct gbuffer gbuffer;
+    struct image glossy;
+    make(&gbuffer, &glossy);
+    image_row(&gbuffer.endpoint, 2, 15)[20] = 0.01f;
+    for (int i = 0; i < 3; i++)
+        image_row(&gbuffer.rays, i, 15)[20] = 0.5f;
+    assert_ok(control_variate(&gbuffer, NAN, 1, &glossy, &err), err);
+    assert_near(image_row(&glossy, 0, 15)[20], 0.5, 0.05);
+    assert_near(image_row(&glossy, 0, 15)[21], 1.25, 0.001);
     end(&gbuffer, &glossy);
 }
 
@@ -152,6 +169,7 @@ int main(void)
         cmocka_unit_test(control_variate__same_residual_everywhere__rays_mean),
         cmocka_unit_test(control_variate__single_residual__weight_of_the_formula),
         cmocka_unit_test(control_variate__pixel_without_rays__neighbours_of_its_exponent),
+        cmocka_unit_test(control_variate__nearer_endpoint__little_of_the_farther_ones),
         cmocka_unit_test(control_variate__another_exponent__as_it_was),
         cmocka_unit_test(control_variate__darker_rays__not_below_black),
         cmocka_unit_test(control_variate__threads__same_bits),
