@@ -76,6 +76,7 @@ const struct pass pass_table[PASS_COUNT] = {
                           .second = {.copy = -1},
                           .trailer = sky_half},
     [PASS_REFLECTIVITY] = {.name = "reflectivity",
+                           .margin = true,
                            .glossy_part = true,
                            .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
                            .second = {.copy = -1},

@@ -107,40 +107,13 @@ static bool is_checked(const struct passes *passes)
     return passes->options->check && !passes->options->switches->partial;
 }
 
-/* A camera made of a mesh has a face for each pixel; image_width is for the proportion, or for something drawn by pixels. */
-static bool file_depends_on_size(const struct scene_file *file)
-{
-    const struct token *tokens = file->list.tokens;
-    for (int i = 0; i < file->list.count; i++) {
-        if (token_is(&file->source, &tokens[i], TOKEN_WORD, "mesh_camera"))
-            return true;
-        bool width = token_is(&file->source, &tokens[i], TOKEN_WORD, "image_width");
-        if (!width && !token_is(&file->source, &tokens[i], TOKEN_WORD, "image_height"))
-            continue;
-        const char *other = width ? "image_height" : "image_width";
-        if (i + 2 >= file->list.count || !token_is(&file->source, &tokens[i + 1], TOKEN_MARK, "/") ||
-            !token_is(&file->source, &tokens[i + 2], TOKEN_WORD, other))
-            return true;
-        i += 2;
-    }
-    return false;
-}
-
-static bool depends_on_size(const struct scene *scene)
-{
-    bool depends = false;
-    for (int i = 0; i < scene->file_count; i++)
-        depends |= file_depends_on_size(&scene->files[i]);
-    return depends;
-}
-
 static enum result write_scenes(struct passes *passes, struct error *err)
 {
     bool needed[SCENE_COPY_COUNT] = {false};
     enum result result = RESULT_OK;
     const struct passes_options *options = passes->options;
     passes->margin = (options->margin > 0 || options->margin_px > 0) && passes->scene.glossy &&
-                     !options->switches->partial && !depends_on_size(&passes->scene) && !passes->scene.focal_blur;
+                     !options->switches->partial && !passes->scene.depends_on_size && !passes->scene.focal_blur;
     passes->job_count = 0;
     for (int id = 0; !result && id < PASS_COUNT; id++) {
         bool asked = (passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id)) ||
@@ -322,7 +295,7 @@ static enum result add_own_size(const struct passes *passes, struct text_list *a
 {
     int width, height;
     picture_size(passes, &width, &height);
-    if (!depends_on_size(&passes->scene))
+    if (!passes->scene.depends_on_size)
         picture_check_size(width, height, &width, &height);
     return add_size(arguments, width, height, err);
 }
@@ -867,7 +840,7 @@ static void note_margin(const struct passes *passes, struct error *note)
     bool asked = (options->margin > 0 || options->margin_px > 0) && passes->scene.glossy;
     const char *reason = options->switches->partial      ? "only a part of the picture is rendered"
                          : passes->scene.focal_blur        ? "the camera has an aperture"
-                         : depends_on_size(&passes->scene) ? "the scene depends on the picture's size"
+                         : passes->scene.depends_on_size ? "the scene depends on the picture's size"
                                                            : "the camera isn't a perspective one";
     if (asked && !passes->has_camera)
         error_set(note, RESULT_OK, "%s%s%s: there is no margin: %s", before.text, before.text[0] ? "; " : "",

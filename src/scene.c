@@ -224,6 +224,16 @@ static void note_limits(struct scene *scene, const struct scene_file *file, int 
     }
 }
 
+/* A camera made of a mesh has a face for each pixel; image_width and image_height but in a proportion are for something drawn
+ * by pixels. */
+static bool is_size(const struct scene_file *file, int token)
+{
+    bool width = is_word(file, token, "image_width"), height = is_word(file, token, "image_height");
+    bool first = is_mark(file, token + 1, "/") && is_word(file, token + 2, width ? "image_height" : "image_width");
+    bool second = is_mark(file, token - 1, "/") && is_word(file, token - 2, width ? "image_height" : "image_width");
+    return is_word(file, token, "mesh_camera") || ((width || height) && !first && !second);
+}
+
 static enum result note_token(struct scene *scene, int index, int token, struct error *err)
 {
     const struct scene_file *file = &scene->files[index];
@@ -243,6 +253,7 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
         return RESULT_OK;
     }
     note_variables(scene, file, token);
+    scene->depends_on_size |= is_size(file, token);
     if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
         scene->plain_mirrors = true;
     if (in_list(file, token, highlight_words))
@@ -371,16 +382,11 @@ static void note_clear_name(struct scene *scene, const struct scene_file *file, 
 }
 
 /* Finds the names through which a pigment may be transparent: those declared with a transparent colour or an image, or with
- * such a name, until none is added. */
-static void note_clear_names(struct scene *scene)
+ * such a name. */
+static void note_clear_names(struct scene *scene, const struct scene_file *file)
 {
-    int before;
-    do {
-        before = scene->names.facts;
-        for (int i = 0; i < scene->file_count; i++)
-            for (int token = 0; token < scene->files[i].list.count - 1; token++)
-                note_clear_name(scene, &scene->files[i], token);
-    } while (scene->names.facts != before);
+    for (int token = 0; token < file->list.count - 1; token++)
+        note_clear_name(scene, file, token);
 }
 
 /* Notes what the user chose to be glossy. */
@@ -402,6 +408,16 @@ static enum result note_choice(struct scene *scene, const struct gloss_choice *c
     return RESULT_OK;
 }
 
+void scene_note_facts(struct scene *scene, void (*note)(struct scene *scene, const struct scene_file *file))
+{
+    int before;
+    do {
+        before = scene->names.facts;
+        for (int i = 0; i < scene->file_count; i++)
+            note(scene, &scene->files[i]);
+    } while (scene->names.facts != before);
+}
+
 bool scene_has_unknown_include(const struct scene_file *file)
 {
     for (int i = 0; i < file->include_count; i++)
@@ -411,22 +427,15 @@ bool scene_has_unknown_include(const struct scene_file *file)
 }
 
 /* Finds the macros that the scene may call: outside macros, or in one of them. */
-static void note_called(struct scene *scene)
+static void note_called(struct scene *scene, const struct scene_file *file)
 {
-    int before;
-    do {
-        before = scene->names.facts;
-        for (int i = 0; i < scene->file_count; i++) {
-            const struct scene_file *file = &scene->files[i];
-            struct nesting nesting = {0};
-            for (int token = 0; token < file->list.count; token++) {
-                nest(&nesting, file, token);
-                if (is_mark(file, token + 1, "(") && has_fact(file, token, NAME_DECLARED) && token != nesting.macro &&
-                    (!nesting.macro || has_fact(file, nesting.macro, NAME_CALLED)))
-                    note_fact(scene, file, token, NAME_CALLED);
-            }
-        }
-    } while (scene->names.facts != before);
+    struct nesting nesting = {0};
+    for (int token = 0; token < file->list.count; token++) {
+        nest(&nesting, file, token);
+        if (is_mark(file, token + 1, "(") && has_fact(file, token, NAME_DECLARED) && token != nesting.macro &&
+            (!nesting.macro || has_fact(file, nesting.macro, NAME_CALLED)))
+            note_fact(scene, file, token, NAME_CALLED);
+    }
 }
 
 /* An include whose file isn't known matters unless it stands in a macro that is never called. */
@@ -437,7 +446,7 @@ static void note_unknown_includes(struct scene *scene)
         unknown |= scene_has_unknown_include(&scene->files[i]);
     if (!unknown)
         return;
-    note_called(scene);
+    scene_note_facts(scene, note_called);
     for (int i = 0; i < scene->file_count; i++) {
         const struct scene_file *file = &scene->files[i];
         struct nesting nesting = {0};
@@ -459,7 +468,7 @@ double scene_default_gamma(const struct scene *scene)
 enum result scene_settle(struct scene *scene, struct error *err)
 {
     scene_note_surfaces(scene);
-    note_clear_names(scene);
+    scene_note_facts(scene, note_clear_names);
     enum result result = count_clear(scene, err);
     if (!result)
         result = scene_note_unions(scene, err);

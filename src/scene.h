@@ -65,6 +65,7 @@ struct scene {
     double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
     int gammas;            /* how often an assumed_gamma is written anywhere */
     bool focal_blur;       /* some camera has an aperture */
+    bool depends_on_size;   /* in another size of the picture it may be another scene */
     bool photons;           /* its global_settings may shoot photons */
     struct scene_place limits[SCENE_LIMIT_COUNT]; /* the first place that one is about */
     const char *atmosphere; /* "fog", "rainbow" or "media" where the scene has one at top level, else NULL */
@@ -92,6 +93,9 @@ MUST_CHECK enum result scene_add_file(struct scene *scene, char *path, const cha
 
 /* What a limit means, in words for the user. */
 const char *scene_limit_text(enum scene_limit limit);
+
+/* Calls `note` for each file, round by round, until one adds no fact to any name. */
+void scene_note_facts(struct scene *scene, void (*note)(struct scene *scene, const struct scene_file *file));
 
 bool scene_has_unknown_include(const struct scene_file *file);
 

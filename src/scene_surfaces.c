@@ -40,11 +40,12 @@ static bool includes_as_it_is(const struct scene *scene)
 static void note_macro(struct scene *scene, const struct scene_file *file, int macro)
 {
     int last = is_mark(file, macro + 1, "(") ? file->list.tokens[macro + 1].match : -1, position = 0;
+    const bool keeps_parameters = includes_as_it_is(scene);
     for (int token = macro + 2; token < last; token = argument_end(file, token, last) + 1, position++) {
         if (!has_fact(file, token, NAME_SURFACE))
             continue;
         note_fact(scene, file, token, NAME_DECLARED);
-        if (!includes_as_it_is(scene))
+        if (!keeps_parameters)
             note_fact(scene, file, macro, NAME_SURFACE_MACRO);
         note_arguments(scene, name_at(file, macro), position, has_fact(file, token, NAME_SURFACE_ARRAY));
     }
@@ -63,13 +64,13 @@ static void note_token(struct scene *scene, const struct scene_file *file, int t
     }
 }
 
+static void note_file(struct scene *scene, const struct scene_file *file)
+{
+    for (int token = 0; token < file->list.count - 1; token++)
+        note_token(scene, file, token);
+}
+
 void scene_note_surfaces(struct scene *scene)
 {
-    int before;
-    do {
-        before = scene->names.facts;
-        for (int i = 0; i < scene->file_count; i++)
-            for (int token = 0; token < scene->files[i].list.count - 1; token++)
-                note_token(scene, &scene->files[i], token);
-    } while (scene->names.facts != before);
+    scene_note_facts(scene, note_file);
 }

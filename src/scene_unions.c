@@ -126,10 +126,6 @@ enum result scene_note_unions(struct scene *scene, struct error *err)
         for (int token = 0; token < file->list.count; token++)
             note_name(scene, file, token);
     }
-    for (int before = -1; before != scene->names.facts;) {
-        before = scene->names.facts;
-        for (int i = 0; i < scene->file_count; i++)
-            note_uses(scene, &scene->files[i]);
-    }
+    scene_note_facts(scene, note_uses);
     return RESULT_OK;
 }

@@ -116,6 +116,14 @@ POV
         rmse_below 1 one.phong.exr two.phong.exr
 }
 check "painted__exponents_with_a_margin__the_same_within_it" painted
+mixed() {
+    printf '%s\n' '#version 3.7;' 'global_settings { assumed_gamma 1.0 }' '#include "povgloss.inc"' \
+        'camera { location <0, 1, -6> look_at y }' 'light_source { <-5, 8, -6> rgb 1 }' \
+        'plane { y, 0 texture { average texture_map { [1 pigment { rgb 0.1 } finish { reflection 0.5 Gloss(50) }]' \
+        '[1 pigment { rgb 0.5 }] } } }' 'sphere { y, 0.5 pigment { rgb x } }' > mixed.pov
+    passes mixed.exr mixed.pov --margin 10% --quiet && has mixed.exr 16 12
+}
+check "mixed__textures_with_a_margin__a_wider_data_window" mixed
 
 # none REASON CAMERA OPTION...: a warning with the reason, and a file without a margin.
 none() {
