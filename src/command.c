@@ -48,6 +48,26 @@ static bool take_flag(const char *argument, struct command *command)
     return false;
 }
 
+/* --margin 10% or --margin 64, in pixels. */
+static enum result take_margin(const char *value, struct passes_options *passes, struct error *err)
+{
+    size_t length = strlen(value);
+    char *number = strndup(value, length > 0 && value[length - 1] == '%' ? length - 1 : length);
+    if (!number)
+        return error_memory(err, (double)length);
+    double percent;
+    enum result result = RESULT_OK;
+    passes->margin = 0;
+    passes->margin_px = 0;
+    if (strlen(number) == length) {
+        result = cli_integer("--margin", number, 0, IMAGE_MAX_SIDE / 2, &passes->margin_px, err);
+    } else if (!(result = cli_number("--margin", number, 0, 100, &percent, err))) {
+        passes->margin = percent / 100;
+    }
+    free(number);
+    return result;
+}
+
 /* Options of povgloss alone; *taken is false if argv[*index] is none of them. */
 static enum result take_own_option(int argc, char **argv, int *index, struct command *command, bool *taken,
                                    struct error *err)
@@ -72,6 +92,10 @@ static enum result take_own_option(int argc, char **argv, int *index, struct com
     *taken = value;
     if (result || value)
         return result ? result : gloss_choice_take(&command->passes.gloss, value, err);
+    result = cli_value(argc, argv, index, "--margin", &value, err);
+    *taken = value;
+    if (result || value)
+        return result ? result : take_margin(value, &command->passes, err);
     for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
         result = cli_value(argc, argv, index, options[i].name, &value, err);
         if (result)
@@ -190,10 +214,11 @@ static enum result find_scene(struct command *command, const struct povray_switc
 static enum result check_probe(const struct command *command, struct error *err)
 {
     const char *name = kind_names[command->kind];
+    const struct passes_options *passes = &command->passes;
     if (command->filter_options_used || (command->kind == KIND_PROBE && command->output_options_used) ||
-        command->depfile || command->resume || command->passes.subsample > 1)
+        command->depfile || command->resume || passes->subsample > 1 || passes->margin > 0 || passes->margin_px > 0)
         return error_set(err, RESULT_USAGE,
-                         "povgloss %s neither filters nor subsamples, and has no --depfile and no --resume", name);
+                         "povgloss %s neither filters nor subsamples, and has no --margin, --depfile or --resume", name);
     if (frames_count(&command->passes.frames) > 1)
         return error_set(err, RESULT_USAGE, "povgloss %s draws one frame: name it (+SF1 +EF1)", name);
     if (command->kind == KIND_BRUTE && command->exponents.size > sizeof(double))
@@ -229,6 +254,9 @@ static enum result check_command(struct command *command, const struct povray_sw
                          output_file_name(command->output), count);
     if (step > 1 && (switches->width == 0 || switches->height == 0 || switches->width % step || switches->height % step))
         return error_set(err, RESULT_USAGE, "--subsample %d needs +W and +H, both multiples of %d", step, step);
+    if ((step > 1 || command->rays) && (command->passes.margin > 0 || command->passes.margin_px > 0))
+        return error_set(err, RESULT_USAGE, "%s and --margin don't go together: leave one of them out",
+                         step > 1 ? "--subsample" : "--rays");
     const struct filter_options *filter = &command->filter.filter;
     if (command->rays && (step > 1 || (filter->phong_override && !(filter->phong > 0))))
         return error_set(err, RESULT_USAGE, "--rays needs every pixel and an exponent above 0: leave out %s",

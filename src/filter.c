@@ -450,11 +450,22 @@ static void pixel_write(const struct filter *filter, int x, int y, const double 
     }
 }
 
+/* Whether the picture needs one of the lanes' pixels from column x of row y on: a margin is only looked at. */
+static bool is_needed(const struct filter *filter, int x, int y)
+{
+    const struct image_window *window = &filter->gbuffer->window;
+    return window->width == 0 || (y >= window->top - EDGE_REACH_PX && y < window->top + window->height + EDGE_REACH_PX &&
+                                  x + FILTER_LANES > window->left - EDGE_REACH_PX &&
+                                  x < window->left + window->width + EDGE_REACH_PX);
+}
+
 static void blur_paper(void *context, int first, int end)
 {
     struct filter *filter = context;
     for (int y = first; y < end; y++)
         for (int x = 0; x < filter->taps.width && !interrupt_signal(); x += FILTER_LANES) {
+            if (!is_needed(filter, x, y))
+                continue;
             struct filter_lanes lanes;
             struct filter_sums sums = {0};
             bool used[FILTER_LANES], any = lanes_fill(filter, x, y, &lanes, used);
@@ -584,7 +595,8 @@ static void blur_best(void *context, int first, int end)
     }
     for (int y = first; y < end; y++)
         for (int x = 0; x < filter->taps.width && !interrupt_signal(); x += FILTER_LANES)
-            blur_best_lanes(filter, x, y, scratch);
+            if (is_needed(filter, x, y))
+                blur_best_lanes(filter, x, y, scratch);
     free(scratch);
 }
 

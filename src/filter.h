@@ -63,6 +63,8 @@ struct filter_options filter_options_default(void);
  * Weights are relative to the pixel's own endpoint and good to about 1e-6 + 1e-7 sqrt(p) (float positions are no
  * better), tabulated ones to 3.2e-5 more.
  *
+ * A gbuffer with a window has the results that its picture needs alone; the rest of both images is 0.
+ *
  * Only the angle theta between two endpoints, seen from a, counts: that an endpoint lies behind the surface isn't known.
  * The weight is 1 at theta = 0, and 0 from 90 degrees on, for p = 0, too. Weights below 2^-120 are 0. p is any float
  * from 0 to infinity; below about 1e-6 the lobe is uniform. Radiance may be negative and of any size; a result that no

@@ -2,6 +2,7 @@
 #include "interrupt.h"
 
 #include <signal.h>
+#include <stdatomic.h>
 #include <stddef.h>
 
 static volatile sig_atomic_t caught;
@@ -20,9 +21,17 @@ void interrupt_install(void)
     sigaction(SIGHUP, &action, NULL);
 }
 
+static atomic_bool stopped;
+
+void interrupt_stop(bool stop)
+{
+    stopped = stop;
+}
+
 int interrupt_signal(void)
 {
-    return caught;
+    int signal = caught;
+    return signal ? signal : stopped ? SIGTERM : 0;
 }
 
 void interrupt_reraise(void)

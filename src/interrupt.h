@@ -6,11 +6,16 @@
 #ifndef POVGLOSS_INTERRUPT_H
 #define POVGLOSS_INTERRUPT_H
 
+#include <stdbool.h>
+
 /* Catches the three signals (without SA_RESTART: a blocking poll or read returns EINTR). Call once, before threads. */
 void interrupt_install(void);
 
 /* The signal that came, or 0. */
 int interrupt_signal(void);
+
+/* From `true` to `false` interrupt_signal() is SIGTERM where no signal came: a thread's work ends without one. */
+void interrupt_stop(bool stop);
 
 /* Ends the process by the signal that came; returns only if none did. */
 void interrupt_reraise(void);

@@ -37,6 +37,8 @@ static const char help[] =
     "  --resume             skip every image whose file is there already\n"
     "  --subsample N        trace the reflection at every 1 (default), 2 or 4 pixels only, and\n"
     "                       interpolate; needs +W and +H\n"
+    "  --margin M           let the blur see what is M pixels, or M% of width and height, beyond the\n"
+    "                       picture's border (default 0); for perspective cameras\n"
     "  --rays N             trace N further rays of the lobe at every glossy pixel: what no mirrored ray\n"
     "                       meets is in the blur, and the error falls with N (default 0)\n"
     "  --jobs N             POV-Ray processes at the same time; 0: two more than processors (default)\n"

@@ -1,7 +1,7 @@
 /* The window of glossfilter --view: the picture, and a slider for its roughness.
  *
  * A change is shown at once from a reduced gbuffer, as coarse as the filter needs to keep up; a thread then works through the
- * finer ones up to the whole picture, and begins again when the roughness has changed meanwhile. It is a program of its own,
+ * finer ones up to the whole picture, and is stopped when the roughness changes. It is a program of its own,
  * so that glossfilter doesn't load SDL2 for everything else.
  */
 #include "cli.h"
@@ -14,7 +14,6 @@
 #include <SDL.h>
 
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 
 static const char program[] = "glossfilter";
@@ -40,7 +39,8 @@ struct view {
     char note[64];    /* in the title, after what is to be seen */
 
     SDL_mutex *mutex; /* of all that follows */
-    SDL_cond *changed;
+    SDL_cond *changed, *idle;
+    bool working;
     struct wish asked;
     int asked_coarse;
     bool ending;
@@ -74,8 +74,11 @@ static enum result draw_level(const struct view *view, const struct wish *wish, 
 static bool next_wish(struct view *view, struct wish *wish, int *level)
 {
     SDL_LockMutex(view->mutex);
+    view->working = false;
+    SDL_CondSignal(view->idle);
     while (!view->ending && view->asked.number == wish->number)
         SDL_CondWait(view->changed, view->mutex);
+    view->working = true;
     *wish = view->asked;
     *level = view->asked_coarse;
     bool goes_on = !view->ending;
@@ -83,7 +86,7 @@ static bool next_wish(struct view *view, struct wish *wish, int *level)
     return goes_on;
 }
 
-/* Hands a picture or a failure over; false: another wish has come. */
+/* Hands a picture or a failure over; false: another wish has come, for which the filter was stopped. */
 static bool hand_over(struct view *view, const struct wish *wish, int level, struct image *picture, enum result result,
                       const struct error *err)
 {
@@ -93,7 +96,7 @@ static bool hand_over(struct view *view, const struct wish *wish, int level, str
     *picture = (struct image){0};
     view->drawn_wish = *wish;
     view->drawn_level = level;
-    if (result) {
+    if (result && result != RESULT_INTERRUPTED) {
         view->failed = result;
         view->err = *err;
     }
@@ -189,10 +192,22 @@ static void paint(const struct view *view)
     SDL_RenderPresent(view->renderer);
 }
 
+/* Ends what the thread draws. */
+static void stop_thread(struct view *view)
+{
+    interrupt_stop(true);
+    SDL_LockMutex(view->mutex);
+    while (view->working)
+        SDL_CondWait(view->idle, view->mutex);
+    SDL_UnlockMutex(view->mutex);
+    interrupt_stop(false);
+}
+
 /* Draws the coarse level at once and asks the thread for the finer ones. */
 static enum result draw_wish(struct view *view, struct error *err)
 {
     struct image picture = {0};
+    stop_thread(view);
     Uint32 begin = SDL_GetTicks();
     enum result result = draw_level(view, &view->wish, view->coarse, &picture, err);
     Uint32 time_ms = SDL_GetTicks() - begin;
@@ -321,7 +336,8 @@ static enum result open_window(struct view *view, struct error *err)
     view->renderer = view->window ? SDL_CreateRenderer(view->window, -1, 0) : NULL;
     view->mutex = SDL_CreateMutex();
     view->changed = SDL_CreateCond();
-    return view->renderer && view->mutex && view->changed ? RESULT_OK : sdl_error("no window can be opened", err);
+    view->idle = SDL_CreateCond();
+    return view->renderer && view->mutex && view->changed && view->idle ? RESULT_OK : sdl_error("no window can be opened", err);
 }
 
 static void close_window(struct view *view)
@@ -331,6 +347,7 @@ static void close_window(struct view *view)
     SDL_DestroyRenderer(view->renderer);
     SDL_DestroyWindow(view->window);
     SDL_DestroyCond(view->changed);
+    SDL_DestroyCond(view->idle);
     SDL_DestroyMutex(view->mutex);
     SDL_Quit();
 }
@@ -373,8 +390,7 @@ static enum result run(const struct cli_glossfilter *command, struct error *err)
         view.ending = true;
         SDL_CondSignal(view.changed);
         SDL_UnlockMutex(view.mutex);
-        if (result != RESULT_INTERRUPTED)
-            raise(SIGTERM); /* caught: the filter in the thread looks at it, and ends */
+        interrupt_stop(true);
         SDL_WaitThread(thread, NULL);
     }
     close_window(&view);

@@ -103,6 +103,34 @@ static enum result read_coded(const struct pass_images *images, enum pass_id hig
     return result;
 }
 
+static bool locate(const struct image *positions, const struct image *directions, struct camera *camera)
+{
+    struct gbuffer gbuffer = {.position = *positions};
+    eye_find(&gbuffer, directions);
+    for (int axis = 0; axis < 3; axis++)
+        camera->location[axis] = (double)gbuffer.eye[axis];
+    return gbuffer.has_eye;
+}
+
+enum result pass_images_camera(const struct pass_images *images, struct camera *camera, bool *found, int *width,
+                               int *height, struct error *err)
+{
+    struct image directions = {0}, positions = {0}, few = {0};
+    enum result result = read_coded(images, PASS_DIRECTION, PASS_DIRECTION, NULL, &directions, err);
+    if (!result)
+        result = read_coded(images, PASS_PLACE, PASS_PLACE_LOW, NULL, &positions, err);
+    *found = !result && camera_fit(&directions, camera);
+    if (*found)
+        result = camera_directions(camera, positions.width, positions.height, &few, err);
+    *found = *found && !result && locate(&positions, &few, camera);
+    *width = directions.width;
+    *height = directions.height;
+    image_free(&directions);
+    image_free(&positions);
+    image_free(&few);
+    return result;
+}
+
 /* What a glossy surface reflects is one half of the working space. */
 static void scale_reflectance(struct image *reflectance, double gamma)
 {
@@ -364,6 +392,31 @@ static void note_lost(const struct gbuffer *gbuffer, const char *scene, struct e
                   scene, 100 * part);
 }
 
+/* What is rendered of the picture alone gets the size of what has a margin, black there. */
+static enum result widen(const struct pass_images *images, struct gbuffer *gbuffer, struct image *directions,
+                         struct error *err)
+{
+    int width = gbuffer->base.width, height = gbuffer->base.height;
+    const struct image_window all = {.left = -images->margin_x,
+                                     .top = -images->margin_y,
+                                     .width = width + 2 * images->margin_x,
+                                     .height = height + 2 * images->margin_y};
+    gbuffer->window = (struct image_window){
+        .left = images->margin_x, .top = images->margin_y, .width = width, .height = height};
+    enum result result = image_crop(&gbuffer->base, &all, err);
+    if (!result)
+        result = image_crop(&gbuffer->reflectance, &all, err);
+    return result ? result : image_crop(directions, &all, err);
+}
+
+static void set_eye(const struct camera *camera, struct gbuffer *gbuffer)
+{
+    gbuffer->has_eye = true;
+    for (int axis = 0; axis < 3; axis++)
+        gbuffer->eye[axis] = (float)camera->location[axis];
+    gbuffer->view_angle = (float)(camera_view_angle(camera) * gbuffer->position.width / gbuffer->window.width);
+}
+
 /* Nothing is glossy: the base is all. */
 static enum result make_dull(struct gbuffer *gbuffer, struct error *err)
 {
@@ -407,6 +460,8 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         result = read_coded(images, PASS_ENDPOINT, PASS_ENDPOINT_LOW, &codes, &gbuffer->endpoint, err);
     if (!result)
         result = read_coded(images, PASS_DIRECTION, PASS_DIRECTION, NULL, &directions, err);
+    if (!result && images->camera)
+        result = widen(images, gbuffer, &directions, err);
     if (!result)
         result = alloc_exponents(gbuffer, &codes, err);
     if (!result)
@@ -418,7 +473,10 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         if (pass_weights_specular(images->scene))
             result = divide_specular(images, gbuffer, err);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
-        eye_find(gbuffer, &directions);
+        if (images->camera)
+            set_eye(images->camera, gbuffer);
+        else
+            eye_find(gbuffer, &directions);
     }
     if (!result && images->scene->focal_blur)
         result = widen_surfaces(gbuffer, err);

@@ -58,11 +58,13 @@ const struct pass pass_table[PASS_COUNT] = {
                              .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
+                       .margin = true,
                        .glossy_part = true,
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
     [PASS_HAZE] = {.name = "haze",
+                   .margin = true,
                    .glossy_part = true,
                    .mirror_colour = mirror_white,
                    .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
@@ -79,6 +81,7 @@ const struct pass pass_table[PASS_COUNT] = {
                            .second = {.copy = -1},
                            .trailer = sky_half},
     [PASS_POSITION] = {.name = "position",
+                       .margin = true,
                        .glossy_part = true,
                        .codes = true,
                        .technical = true,
@@ -87,6 +90,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                        .second = {.copy = -1}},
     [PASS_POSITION_LOW] = {.name = "position-low",
+                           .margin = true,
                            .glossy_part = true,
                            .codes = true,
                            .technical = true,
@@ -95,6 +99,7 @@ const struct pass pass_table[PASS_COUNT] = {
                            .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                            .second = {.copy = -1}},
     [PASS_ENDPOINT] = {.name = "endpoint",
+                       .margin = true,
                        .glossy_part = true,
                        .codes = true,
                        .technical = true,
@@ -105,6 +110,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .coded_sky = true},
     [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
+                           .margin = true,
                            .glossy_part = true,
                            .codes = true,
                            .technical = true,
@@ -122,7 +128,22 @@ const struct pass pass_table[PASS_COUNT] = {
                         .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS},
                         .second = {.copy = -1},
                         .coded_sky = true},
+    [PASS_PLACE] = {.name = "place",
+                    .codes = true,
+                    .technical = true,
+                    .digits = POSITION_DIGITS_HIGH,
+                    .clear_from = CLEAR,
+                    .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
+                    .second = {.copy = -1}},
+    [PASS_PLACE_LOW] = {.name = "place-low",
+                        .codes = true,
+                        .technical = true,
+                        .digits = POSITION_DIGITS_LOW,
+                        .clear_from = CLEAR,
+                        .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
+                        .second = {.copy = -1}},
     [PASS_EXPONENT] = {.name = "exponent",
+                       .margin = true,
                        .codes = true,
                        .technical = true,
                        .mirror_colour = mirror_exponent,
@@ -130,6 +151,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .second = {.copy = -1},
                        .trailer = sky_white},
     [PASS_EXPONENT_MEAN] = {.name = "exponent-mean",
+                            .margin = true,
                             .codes = true,
                             .smooth = true,
                             .technical = true,
@@ -638,6 +660,11 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     return result;
 }
 
+bool pass_is_place(enum pass_id id)
+{
+    return id == PASS_PLACE || id == PASS_PLACE_LOW;
+}
+
 bool pass_is_mirror(enum pass_id id)
 {
     return id == PASS_MIRROR || id == PASS_MIRROR_LOW;
@@ -645,7 +672,7 @@ bool pass_is_mirror(enum pass_id id)
 
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
-    if (id == PASS_PROBE || pass_is_mirror(id))
+    if (id == PASS_PROBE || pass_is_mirror(id) || pass_is_place(id))
         return false;
     if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;

@@ -21,6 +21,8 @@ enum pass_id {
     PASS_ENDPOINT,
     PASS_ENDPOINT_LOW,
     PASS_DIRECTION,
+    PASS_PLACE, /* positions, few, that tell the eye's before the passes with a margin are rendered */
+    PASS_PLACE_LOW,
     PASS_EXPONENT,
     PASS_EXPONENT_MEAN,
     PASS_OWN, /* POV-Ray's own picture of the scene as it is, small and without antialiasing */
@@ -36,6 +38,8 @@ enum pass_id {
 #define PASS_MIXED_FILE "povgloss_mixed.txt"
 #define PASS_GLASS_FILE "povgloss_glass.txt"
 #define PASS_PROBE_VIEW "view.inc"
+/* Beside the copies: nothing, or the camera of the picture with its margin. */
+#define PASS_MARGIN_CAMERA "povgloss-margin.inc"
 
 /* A copy of the scene in a union. */
 struct scene_part {
@@ -51,6 +55,7 @@ struct pass {
     const char *name;
     bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
+    bool margin;    /* rendered with the margin, by the camera of PASS_MARGIN_CAMERA */
     bool smooth;    /* antialiased, whatever the user asks */
     bool glossy_part; /* of use where something glossy is, as the exponent pass knows; else the whole picture is rendered */
     bool technical; /* colours are numbers: linear, without media or radiosity */
@@ -83,6 +88,8 @@ bool pass_exponents_differ(const struct scene *scene);
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are
  * loaded as in the other passes. */
 bool pass_is_verbatim(const struct scene *scene, enum pass_id id);
+/* Whether the pass is one of those that find the eye for a margin. */
+bool pass_is_place(enum pass_id id);
 /* Whether the pass is one of the mirrored rays' directions, which are rendered for those who ask. */
 bool pass_is_mirror(enum pass_id id);
 

@@ -16,6 +16,7 @@
 
 #include <assert.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,6 +41,11 @@ struct passes {
     char version[POVRAY_VERSION_SIZE]; /* of a POV-Ray that isn't 3.7; told is whether the user knows */
     bool version_told;
     bool has_folder[PASS_COUNT];
+    bool margin;          /* is wanted; the camera of the frame that is rendered, */
+    bool has_camera;      /* where it is known, */
+    struct camera camera;
+    int width, height;      /* the picture, */
+    int margin_x, margin_y; /* and the pixels on each side of it */
     struct povray_job jobs[PASS_COUNT];
     enum pass_id ids[PASS_COUNT];
     int job_count;
@@ -87,6 +93,8 @@ static enum result write_pass(struct passes *passes, enum pass_id id, struct err
     passes->has_folder[id] = true;
     if (!result)
         result = pass_scene_text(&passes->scene, id, &text, err);
+    if (!result && passes->margin && pass_table[id].margin)
+        result = buffer_add_text(&text, "#include \"" PASS_MARGIN_CAMERA "\"\n", err);
     if (!result)
         result = write_wrapper(passes, pass_table[id].name, &text, err);
     buffer_free(&text);
@@ -99,13 +107,44 @@ static bool is_checked(const struct passes *passes)
     return passes->options->check && !passes->options->switches->partial;
 }
 
+/* A camera made of a mesh has a face for each pixel; image_width is for the proportion, or for something drawn by pixels. */
+static bool file_depends_on_size(const struct scene_file *file)
+{
+    const struct token *tokens = file->list.tokens;
+    for (int i = 0; i < file->list.count; i++) {
+        if (token_is(&file->source, &tokens[i], TOKEN_WORD, "mesh_camera"))
+            return true;
+        bool width = token_is(&file->source, &tokens[i], TOKEN_WORD, "image_width");
+        if (!width && !token_is(&file->source, &tokens[i], TOKEN_WORD, "image_height"))
+            continue;
+        const char *other = width ? "image_height" : "image_width";
+        if (i + 2 >= file->list.count || !token_is(&file->source, &tokens[i + 1], TOKEN_MARK, "/") ||
+            !token_is(&file->source, &tokens[i + 2], TOKEN_WORD, other))
+            return true;
+        i += 2;
+    }
+    return false;
+}
+
+static bool depends_on_size(const struct scene *scene)
+{
+    bool depends = false;
+    for (int i = 0; i < scene->file_count; i++)
+        depends |= file_depends_on_size(&scene->files[i]);
+    return depends;
+}
+
 static enum result write_scenes(struct passes *passes, struct error *err)
 {
     bool needed[SCENE_COPY_COUNT] = {false};
     enum result result = RESULT_OK;
+    const struct passes_options *options = passes->options;
+    passes->margin = (options->margin > 0 || options->margin_px > 0) && passes->scene.glossy &&
+                     !options->switches->partial && !depends_on_size(&passes->scene) && !passes->scene.focal_blur;
     passes->job_count = 0;
     for (int id = 0; !result && id < PASS_COUNT; id++) {
-        bool asked = passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id);
+        bool asked = (passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id)) ||
+                     (passes->margin && pass_is_place((enum pass_id)id));
         bool unasked = id == PASS_OWN && !is_checked(passes);
         if (unasked || (!asked && !pass_needed(&passes->scene, (enum pass_id)id)))
             continue;
@@ -252,42 +291,38 @@ static enum result scene_arguments(const struct passes *passes, int frame, struc
     return result;
 }
 
-/* A camera made of a mesh has a face for each pixel; image_width is for the proportion, or for something drawn by pixels. */
-static bool file_depends_on_size(const struct scene_file *file)
-{
-    const struct token *tokens = file->list.tokens;
-    for (int i = 0; i < file->list.count; i++) {
-        if (token_is(&file->source, &tokens[i], TOKEN_WORD, "mesh_camera"))
-            return true;
-        bool width = token_is(&file->source, &tokens[i], TOKEN_WORD, "image_width");
-        if (!width && !token_is(&file->source, &tokens[i], TOKEN_WORD, "image_height"))
-            continue;
-        const char *other = width ? "image_height" : "image_width";
-        if (i + 2 >= file->list.count || !token_is(&file->source, &tokens[i + 1], TOKEN_MARK, "/") ||
-            !token_is(&file->source, &tokens[i + 2], TOKEN_WORD, other))
-            return true;
-        i += 2;
-    }
-    return false;
-}
-
 static enum result add_size(struct text_list *arguments, int width, int height, struct error *err)
 {
     enum result result = text_list_add(arguments, err, "+W%d", width);
     return result ? result : text_list_add(arguments, err, "+H%d", height);
 }
 
-/* POV-Ray's own picture is small, unless the scene isn't the same in another size. */
-static enum result add_own_size(const struct passes *passes, struct text_list *arguments, struct error *err)
+static void picture_size(const struct passes *passes, int *width, int *height)
 {
     enum { POVRAY_WIDTH = 160, POVRAY_HEIGHT = 120 }; /* where nothing is said */
     const struct povray_switches *switches = passes->options->switches;
-    int width = switches->width ? switches->width : POVRAY_WIDTH;
-    int height = switches->height ? switches->height : POVRAY_HEIGHT;
-    bool depends = false;
-    for (int i = 0; i < passes->scene.file_count; i++)
-        depends |= file_depends_on_size(&passes->scene.files[i]);
-    if (!depends)
+    *width = switches->width ? switches->width : POVRAY_WIDTH;
+    *height = switches->height ? switches->height : POVRAY_HEIGHT;
+}
+
+/* A few thousand positions tell where the eye is; the proportion, which a camera may depend on, is that of the picture. */
+static enum result add_place_size(const struct passes *passes, struct text_list *arguments, struct error *err)
+{
+    enum { LEAST_SIDE = 32 };
+    int width, height, divisor = 1;
+    picture_size(passes, &width, &height);
+    for (int i = 2; i * LEAST_SIDE <= width && i * LEAST_SIDE <= height; i++)
+        if (width % i == 0 && height % i == 0)
+            divisor = i;
+    return add_size(arguments, width / divisor, height / divisor, err);
+}
+
+/* POV-Ray's own picture is small, unless the scene isn't the same in another size. */
+static enum result add_own_size(const struct passes *passes, struct text_list *arguments, struct error *err)
+{
+    int width, height;
+    picture_size(passes, &width, &height);
+    if (!depends_on_size(&passes->scene))
         picture_check_size(width, height, &width, &height);
     return add_size(arguments, width, height, err);
 }
@@ -309,6 +344,8 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
         result = text_list_add(arguments, err, "-A");
     if (!result && id == PASS_OWN)
         result = add_own_size(passes, arguments, err);
+    if (!result && pass_is_place(id))
+        result = add_place_size(passes, arguments, err);
     /* Reflectivities are small, and their edges show as much as those of the picture. */
     if (!result && id == PASS_REFLECTANCE && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
@@ -549,7 +586,10 @@ static struct pass_images images_of(const struct passes *passes, const char *num
                                 .name = passes->options->scene,
                                 .scene = &passes->scene,
                                 .subsample = passes->options->subsample,
-                                .rays = passes->options->rays};
+                                .rays = passes->options->rays,
+                                .margin_x = passes->margin_x,
+                                .margin_y = passes->margin_y,
+                                .camera = passes->has_camera ? &passes->camera : NULL};
 }
 
 /* Rows and columns to render; `left` and `top` count from 0. */
@@ -569,32 +609,9 @@ struct run {
     int frame;
     struct text_list arguments[PASS_COUNT];
     char *folders[PASS_COUNT];
+    bool camera_sought;     /* it is known, or can't be */
+    bool narrows, narrowed; /* to the glossy window: whether passes are, and whether they have been */
 };
-
-/* The exponent pass has ended: where it saw nothing glossy those that wait for it have nothing to do. */
-static enum result narrow(void *context, struct error *err)
-{
-    struct run *run = context;
-    struct passes *passes = run->passes;
-    char number[FRAMES_NUMBER_SIZE];
-    frames_number(&passes->options->frames, run->frame, number);
-    const struct pass_images images = images_of(passes, number);
-    struct image_window window;
-    enum result result = pass_images_glossy(&images, &window, err);
-    for (int i = 0; !result && i < passes->job_count; i++) {
-        const struct pass pass = pass_of(&passes->scene, passes->ids[i]);
-        if (!pass.glossy_part)
-            continue;
-        int step = pass.full_size ? images.subsample : 1;
-        /* POV-Ray antialiases block by block: the blocks are those of the whole picture. */
-        int left = (int)window.left * step, top = (int)window.top * step;
-        int more_left = left % POVRAY_BLOCK, more_top = top % POVRAY_BLOCK;
-        result = add_window(&run->arguments[i], left - more_left, top - more_top, window.width * step + more_left,
-                            window.height * step + more_top, err);
-        passes->jobs[i].arguments = run->arguments[i].texts;
-    }
-    return result;
-}
 
 static struct povray_job *job_of(struct passes *passes, enum pass_id id)
 {
@@ -604,11 +621,134 @@ static struct povray_job *job_of(struct passes *passes, enum pass_id id)
     return NULL;
 }
 
+static bool has_ended(struct passes *passes, enum pass_id id)
+{
+    const struct povray_job *job = job_of(passes, id);
+    return !job || job->finished;
+}
+
+/* What the passes with a margin include: nothing as long as the camera isn't known. */
+static enum result write_camera(const struct passes *passes, const struct buffer *text, struct error *err)
+{
+    char *path;
+    enum result result = text_printf(&path, err, "%s/copies/" PASS_MARGIN_CAMERA, passes->folder.path);
+    if (!result)
+        result = file_write(path, text, err);
+    free(path);
+    return result;
+}
+
+/* The picture's camera is found: with a margin it sees more. */
+static enum result add_margin(struct run *run, const struct pass_images *images, struct error *err)
+{
+    struct passes *passes = run->passes;
+    const struct passes_options *options = passes->options;
+    struct buffer text = {0};
+    int width = 0, height = 0;
+    enum result result = pass_images_camera(images, &passes->camera, &passes->has_camera, &width, &height, err);
+    if (result || !passes->has_camera)
+        return result;
+    passes->width = width;
+    passes->height = height;
+    passes->margin_x = options->margin_px > 0 ? options->margin_px : (int)lround(options->margin * width);
+    passes->margin_y = options->margin_px > 0 ? options->margin_px : (int)lround(options->margin * height);
+    int all_width = width + 2 * passes->margin_x, all_height = height + 2 * passes->margin_y;
+    if (all_width > IMAGE_MAX_SIDE || all_height > IMAGE_MAX_SIDE)
+        return error_set(err, RESULT_DATA, "%s: the picture with its margin is %dx%d pixels, more than %d: give less --margin",
+                         options->scene, all_width, all_height, IMAGE_MAX_SIDE);
+    result = camera_text(&passes->camera, (double)all_width / width, (double)all_height / height, &text, err);
+    if (!result)
+        result = write_camera(passes, &text, err);
+    for (int i = 0; !result && i < passes->job_count; i++)
+        if (pass_table[passes->ids[i]].margin) {
+            result = add_size(&run->arguments[i], all_width, all_height, err);
+            passes->jobs[i].arguments = run->arguments[i].texts;
+        }
+    buffer_free(&text);
+    return result;
+}
+
+static int clamp(int value, int low, int high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+/* Limits the pass to the glossy window, whose pixels are those of the exponent pass. It begins where a block of the whole
+ * picture begins: POV-Ray antialiases block by block. */
+static enum result add_glossy_window(struct run *run, int index, const struct image_window *window, struct error *err)
+{
+    struct passes *passes = run->passes;
+    const struct pass pass = pass_of(&passes->scene, passes->ids[index]);
+    int step = pass.full_size ? passes->options->subsample : 1;
+    int left = (int)window->left * step, right = left + window->width * step;
+    int top = (int)window->top * step, bottom = top + window->height * step;
+    if (passes->has_camera && !pass.margin) {
+        left = clamp(left - passes->margin_x, 0, passes->width - 1);
+        right = clamp(right - passes->margin_x, left + 1, passes->width);
+        top = clamp(top - passes->margin_y, 0, passes->height - 1);
+        bottom = clamp(bottom - passes->margin_y, top + 1, passes->height);
+    }
+    left -= left % POVRAY_BLOCK;
+    top -= top % POVRAY_BLOCK;
+    enum result result = add_window(&run->arguments[index], left, top, right - left, bottom - top, err);
+    passes->jobs[index].arguments = run->arguments[index].texts;
+    return result;
+}
+
+/* Where the exponent pass saw nothing glossy others have nothing to do. */
+static enum result narrow(struct run *run, const struct pass_images *images, struct error *err)
+{
+    struct image_window window;
+    enum result result = pass_images_glossy(images, &window, err);
+    for (int i = 0; !result && i < run->passes->job_count; i++)
+        if (pass_of(&run->passes->scene, run->passes->ids[i]).glossy_part)
+            result = add_glossy_window(run, i, &window, err);
+    return result;
+}
+
+/* Holds what needs something that isn't there yet: photons, the picture's camera, the glossy window. */
+static void hold(struct run *run)
+{
+    struct passes *passes = run->passes;
+    for (int i = 0; i < passes->job_count; i++) {
+        enum pass_id id = passes->ids[i];
+        passes->jobs[i].held = (id != PASS_PHOTONS && !has_ended(passes, PASS_PHOTONS)) ||
+                               (passes->margin && pass_table[id].margin && !run->camera_sought) ||
+                               (run->narrows && pass_of(&passes->scene, id).glossy_part && !run->narrowed);
+    }
+}
+
+/* A pass has ended, and others may have waited for it. */
+static enum result go_on(void *context, struct error *err)
+{
+    struct run *run = context;
+    struct passes *passes = run->passes;
+    char number[FRAMES_NUMBER_SIZE];
+    frames_number(&passes->options->frames, run->frame, number);
+    enum result result = RESULT_OK;
+    if (passes->margin && !run->camera_sought && has_ended(passes, PASS_DIRECTION) && has_ended(passes, PASS_PLACE) &&
+        has_ended(passes, PASS_PLACE_LOW)) {
+        const struct pass_images images = images_of(passes, number);
+        run->camera_sought = true;
+        result = add_margin(run, &images, err);
+    }
+    if (!result && run->narrows && !run->narrowed && has_ended(passes, PASS_EXPONENT)) {
+        const struct pass_images images = images_of(passes, number);
+        run->narrowed = true;
+        result = narrow(run, &images, err);
+    }
+    hold(run);
+    return result;
+}
+
 static enum result run_passes(struct passes *passes, int frame, struct error *err)
 {
     const struct passes_options *options = passes->options;
-    struct run run = {.passes = passes, .frame = frame};
-    enum result result = RESULT_OK;
+    struct run run = {.passes = passes, .frame = frame, .narrows = passes->scene.glossy && !options->switches->partial};
+    const struct buffer none = {0};
+    enum result result = passes->margin ? write_camera(passes, &none, err) : RESULT_OK;
+    passes->has_camera = false;
+    passes->margin_x = passes->margin_y = 0;
     for (int i = 0; !result && i < passes->job_count; i++) {
         result = job_arguments(passes, passes->ids[i], frame, &run.arguments[i], err);
         if (!result)
@@ -616,19 +756,13 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
         passes->jobs[i] = (struct povray_job){.name = pass_table[passes->ids[i]].name,
                                               .folder = run.folders[i],
                                               .arguments = run.arguments[i].texts,
-                                              .timeout_s = options->timeout_s};
+                                              .timeout_s = options->timeout_s,
+                                              .ended = go_on,
+                                              .context = &run};
     }
-    struct povray_job *photons = job_of(passes, PASS_PHOTONS), *exponent = job_of(passes, PASS_EXPONENT);
-    for (int i = 0; i < passes->job_count; i++) {
-        bool narrowed = !options->switches->partial && pass_of(&passes->scene, passes->ids[i]).glossy_part;
-        passes->jobs[i].after = narrowed ? exponent : &passes->jobs[i] != photons ? photons : NULL;
-    }
-    if (exponent && !options->switches->partial) {
-        exponent->ended = narrow;
-        exponent->context = &run;
-    }
+    hold(&run);
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
-    if (!result && photons)
+    if (!result && job_of(passes, PASS_PHOTONS))
         result = remove_left(passes, PASS_PHOTONS, PASS_PHOTONS_FILE, err);
     for (int i = 0; !result && i < OBJECT_NOTES; i++)
         result = remove_left(passes, PASS_BASE, object_notes[i].file, err);
@@ -726,6 +860,20 @@ static void note_version(struct passes *passes, struct error *note)
               before.text, before.text[0] ? "; " : "", passes->version);
 }
 
+static void note_margin(const struct passes *passes, struct error *note)
+{
+    const struct passes_options *options = passes->options;
+    struct error before = *note;
+    bool asked = (options->margin > 0 || options->margin_px > 0) && passes->scene.glossy;
+    const char *reason = options->switches->partial      ? "only a part of the picture is rendered"
+                         : passes->scene.focal_blur        ? "the camera has an aperture"
+                         : depends_on_size(&passes->scene) ? "the scene depends on the picture's size"
+                                                           : "the camera isn't a perspective one";
+    if (asked && !passes->has_camera)
+        error_set(note, RESULT_OK, "%s%s%s: there is no margin: %s", before.text, before.text[0] ? "; " : "",
+                  options->scene, reason);
+}
+
 /* The images of a long animation don't pile up. */
 static enum result remove_image(const struct passes *passes, const struct pass_images *images, enum pass_id id,
                                 struct error *err)
@@ -779,7 +927,8 @@ enum result passes_open(const struct passes_options *options, struct passes **op
                         struct error *err)
 {
     const struct povray_switches *switches = options->switches;
-    assert(!(options->rays && options->subsample > 1));
+    assert(!((options->rays || options->margin > 0 || options->margin_px > 0) && options->subsample > 1));
+    assert(!(options->rays && (options->margin > 0 || options->margin_px > 0)));
     assert(options->subsample >= 1 && (options->subsample == 1 || (switches->width > 0 && switches->height > 0)));
     struct passes *passes = *opened = calloc(1, sizeof *passes);
     if (!passes)
@@ -805,7 +954,6 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     const struct passes_options *options = passes->options;
     char number[FRAMES_NUMBER_SIZE];
     frames_number(&options->frames, frame, number);
-    const struct pass_images images = images_of(passes, number);
     *gbuffer = (struct gbuffer){0};
     note->text[0] = 0;
     enum result result = prepare_frame(passes, frame, err);
@@ -816,11 +964,14 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     if (!result && options->reads)
         result = collect_reads(passes, err);
     start = timings_now();
+    const struct pass_images images = images_of(passes, number);
     if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
     timings_add(options->timings, "decode", start);
-    if (!result)
+    if (!result) {
+        note_margin(passes, note);
         note_version(passes, note);
+    }
     if (!result)
         result = note_objects(passes, note, err);
     if (!result)
@@ -863,6 +1014,8 @@ enum result passes_check_sum(const struct passes *passes, int frame, const struc
     enum result result = pass_images_radiance(&images, PASS_OWN, &own, err);
     if (!result)
         result = compose(gbuffer, &gbuffer->specular, &sum, err);
+    if (!result && gbuffer->window.width > 0)
+        result = image_crop(&sum, &gbuffer->window, err);
     if (!result)
         result = picture_check(&sum, &own, single_rays, tolerance, &difference, err);
     if (!result)

@@ -12,6 +12,7 @@
  *   direction    the camera's rays, coded: they give the eye and the view angle whatever the camera
  *   exponent     the Phong exponent; the passes that only the reflection needs wait for it, to be rendered where
  *                something is glossy alone
+ *   place        few positions, which tell the eye's where the passes are rendered with a margin
  *   exponent-mean  the same antialiased, where an exponent is painted, so that its edges are as smooth as the picture's
  *   own          POV-Ray's own picture, small: what the parts must add up to
  */
@@ -33,6 +34,8 @@ struct passes_options {
     struct frames frames; /* those that the switches ask for */
     int subsample;        /* 1; 2 or 4: specular, a and b are traced at every so-many-th pixel and interpolated; then the
                              switches say the size */
+    double margin;        /* in which the reflection is rendered around the picture, as a share of its width and height, and */
+    int margin_px;        /* in pixels; one of them is 0. Only for perspective cameras, without subsampling and rays */
     int jobs;             /* POV-Ray processes at the same time; 0: two more than there are cores */
     int timeout_s;        /* for each POV-Ray process; 0: none */
     bool check;           /* POV-Ray's own picture is rendered, too, for passes_check_sum */

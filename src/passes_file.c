@@ -139,7 +139,10 @@ enum result passes_file_write(const char *path, const struct gbuffer *gbuffer, s
     }
     struct exr_attributes attributes = {.has_eye = gbuffer->has_eye,
                                         .view_angle = gbuffer->view_angle,
-                                        .working_gamma = gbuffer->working_gamma};
+                                        .working_gamma = gbuffer->working_gamma,
+                                        .window = gbuffer->window};
+    if (gbuffer->window.width > 0)
+        attributes.view_angle = (float)((double)gbuffer->view_angle * gbuffer->window.width / gbuffer->position.width);
     memcpy(attributes.eye, gbuffer->eye, sizeof attributes.eye);
     return exr_write(path, channels, count, &attributes, err);
 }

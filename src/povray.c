@@ -73,7 +73,7 @@ static enum result start_job(struct povray_job *job, char *const *environment, s
 static struct povray_job *next_job(struct povray_job *jobs, int count)
 {
     for (int i = 0; i < count; i++)
-        if (!jobs[i].started && (!jobs[i].after || jobs[i].after->finished))
+        if (!jobs[i].started && !jobs[i].held)
             return &jobs[i];
     return NULL;
 }

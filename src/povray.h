@@ -16,8 +16,8 @@ struct povray_job {
     const char *folder;     /* where the process runs and writes its image */
     char *const *arguments; /* argv, argv[0] being the program; NULL-terminated */
     int timeout_s;          /* it is ended when it runs longer; 0: never */
-    const struct povray_job *after; /* one of the others, which has ended before this one starts; NULL: none */
-    povray_ended *ended;    /* may change the jobs that are after this one; NULL: none */
+    bool held;              /* doesn't start until the `ended` of another one clears this */
+    povray_ended *ended;    /* may change the jobs that haven't started; NULL: none */
     void *context;
 
     struct child child;

@@ -148,10 +148,11 @@ static enum result replace_script(void *context, struct error *err)
     chain->calls++;
     assert_true(chain->jobs.jobs[2].finished && !chain->jobs.jobs[0].started);
     chain->jobs.arguments[0][2] = script;
+    chain->jobs.jobs[0].held = false;
     return RESULT_OK;
 }
 
-static void run__a_job_after_another__starts_when_that_has_ended(void **state)
+static void run__a_held_job__starts_when_it_is_let_go(void **state)
 {
     (void)state;
     static struct chain chain;
@@ -161,7 +162,7 @@ static void run__a_job_after_another__starts_when_that_has_ended(void **state)
     add_job(&chain.jobs, "echo first >> order");
     add_job(&chain.jobs, "exit 0");
     add_job(&chain.jobs, "sleep 0.2; echo third >> order");
-    chain.jobs.jobs[0].after = &chain.jobs.jobs[2];
+    chain.jobs.jobs[0].held = true;
     chain.jobs.jobs[2].ended = replace_script;
     chain.jobs.jobs[2].context = &chain;
     assert_ok(run_jobs(&chain.jobs, 3, &progress, &failed, &err), err);
@@ -478,7 +479,7 @@ int main(void)
         cmocka_unit_test(run__all_succeed__finished_with_their_messages),
         cmocka_unit_test(run__at_once__never_more),
         cmocka_unit_test(run__one_at_a_time__in_their_order),
-        cmocka_unit_test(run__a_job_after_another__starts_when_that_has_ended),
+        cmocka_unit_test(run__a_held_job__starts_when_it_is_let_go),
         cmocka_unit_test(run__refused_after_a_job__the_others_are_ended),
         cmocka_unit_test(run__progress_lines__fractions_of_all_jobs),
         cmocka_unit_test(run__progress_line_in_two_pieces__not_misread),
