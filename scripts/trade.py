@@ -170,14 +170,18 @@ def table_speed(rows, names):
     for name in names:
         for p in TRADE:
             ours = curve(rows, name, p, 'best') + curve(rows, name, p, 'rays')
-            times = [needed_seconds(curve(rows, name, p, peer), error) / seconds
+            ratios = [needed_seconds(curve(rows, name, p, peer), error) / seconds
                      for peer in ('brute', 'normals') for seconds, error in ours]
-            for column, value in zip(found, times):
+            for column, value in zip(found, ratios):
                 column.append(value)
-            lines.append(f'| {name} {p} | ' + ' | '.join('never' if np.isinf(v) else f'{v:.2g}x' for v in times) + ' |')
+            lines.append(f'| {name} {p} | ' + ' | '.join(map(times, ratios)) + ' |')
     medians = [np.median(column) for column in found]
-    lines.append('| median | ' + ' | '.join('never' if np.isinf(v) else f'{v:.2g}x' for v in medians) + ' |')
+    lines.append('| median | ' + ' | '.join(map(times, medians)) + ' |')
     return lines
+
+
+def times(value):
+    return 'never' if np.isinf(value) else 'over 1000x' if value > 1000 else f'{value:.2g}x'
 
 
 def draw(rows, names):
