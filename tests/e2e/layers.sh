@@ -7,6 +7,9 @@ rows='error preload_reads
 interrupt cpu mem lobe gamma
 image gbuffer weights bands own_files input_file output_file frames
 exr_io png_io position_code eye interpolate filter_kernel child scene_lexer scene_names gloss_choice ini_file povray_switches work_folder depfile
+filter_level
+filter_cells
+filter_sparse
 channels passes_file passes_check image_file filter gloss compose probe picture_check povray scene scene_tokens scene_discover scene_surfaces
 scene_rewrite scene_list
 pass_scene pass_images reads probe_file
