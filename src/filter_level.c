@@ -591,8 +591,9 @@ static void blur_best(struct filter_level *level, const struct filter_view *view
         any_help = true;
         few = few || help[l].share > 0;
     }
+    /* What nothing hides may be near, and fill much of the lobe: its cells must be smaller. */
     if (any_help)
-        sum_windows(level, view, few ? 0 : inner, &lanes, x, y, radii, &pool);
+        sum_windows(level, view, few ? 0 : 4 * inner, &lanes, x, y, radii, &pool);
     for (int l = 0; l < FILTER_LANES && x + l * step < level->taps.width; l++) {
         double phong = filter_level_phong(level, x + l * step, y);
         if (phong < 0)

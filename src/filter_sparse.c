@@ -52,6 +52,7 @@ struct sparse {
 struct point {
     double glossy[3], confidence;
     double direction[3], a[3], nearness; /* 1 / distance of b, 0 for a direction */
+    double radius;
 };
 
 /* NULL outside the picture. */
@@ -70,7 +71,17 @@ static void point_place(const struct filter_level *level, int x, int y, struct p
     double distance = filter_level_direction(level, a, x, y, point->direction);
     for (int i = 0; i < 3; i++)
         point->a[i] = (double)a[i];
+    point->radius = (double)image_row(&level->radius, 0, y)[x];
     point->nearness = *filter_level_tap(level, FILTER_PLANE_W, x, y) > 0 ? 1 / distance : 0;
+}
+
+/* Whether two pixels' windows count and differ: the paper's always count, the best filter's where the lobe isn't seen. */
+static bool windows_differ(const struct sparse *sparse, const struct point *own, const struct point *point)
+{
+    const double difference = 0.05, unseen = 0.03;
+    const bool paper = sparse->level->shared->options->mode == FILTER_MODE_PAPER;
+    return (paper || point->confidence < 1 - unseen) &&
+           fabs(point->radius - own->radius) > difference * fmax(own->radius, point->radius);
 }
 
 /* A pixel whose result is known and may stand for one of the exponent `phong`. */
@@ -117,10 +128,12 @@ static bool interpolate(const struct sparse *sparse, int x, int y, double phong,
     const int dx = sparse->dx, dy = sparse->dy;
     struct point near[2], far[2];
     if (!point_read(sparse, x - dx, y - dy, phong, &near[0]) || !point_read(sparse, x + dx, y + dy, phong, &near[1]) ||
-        apart(&near[0], &near[1], phong) > sparse->spacing * sparse->spacing)
+        apart(&near[0], &near[1], phong) > sparse->spacing * sparse->spacing ||
+        windows_differ(sparse, own, &near[0]) || windows_differ(sparse, own, &near[1]))
         return false;
     if (point_read(sparse, x - 3 * dx, y - 3 * dy, phong, &far[0]) &&
-        point_read(sparse, x + 3 * dx, y + 3 * dy, phong, &far[1])) {
+        point_read(sparse, x + 3 * dx, y + 3 * dy, phong, &far[1]) && !windows_differ(sparse, own, &far[0]) &&
+        !windows_differ(sparse, own, &far[1])) {
         *found = (struct point){.nearness = 0};
         for (int i = 0; i < 2; i++) {
             point_add(found, 9.0 / 16, &near[i]);
@@ -148,7 +161,7 @@ static bool copy(const struct sparse *sparse, int x, int y, double phong, const 
                         &point))
             continue;
         double square = apart(&point, own, phong);
-        if (square > sparse->near * sparse->near)
+        if (square > sparse->near * sparse->near || windows_differ(sparse, own, &point))
             continue;
         double weight = 1 / (square + 1e-6);
         point_add(&sum, weight, &point);

@@ -391,7 +391,6 @@ static void filter_fast__wide_and_narrow_lobes__are_near_the_exact_sums(void **s
             options.tolerance = FILTER_TOLERANCE_FINE;
             filter_run(&gbuffer, &options, &fast, NULL);
             difference_of(&gbuffer, &exact, &fast, &rmse, &worst);
-            print_message("p %g mode %d rmse %g worst %g\n", (double)exponents[i], mode, rmse, worst);
             if (!(rmse < 0.002 && worst < 0.1))
                 fail_msg("p = %g, mode %d: RMSE %g, worst %g", (double)exponents[i], mode, rmse, worst);
             image_free(&exact);
@@ -400,7 +399,7 @@ static void filter_fast__wide_and_narrow_lobes__are_near_the_exact_sums(void **s
         }
 }
 
-static void filter_fast__least_tolerance__is_the_exact_sum(void **state)
+static void filter_fast__least_tolerance__is_nearly_the_exact_sum(void **state)
 {
     (void)state;
     struct filter_options options = test_options();
@@ -413,7 +412,7 @@ static void filter_fast__least_tolerance__is_the_exact_sum(void **state)
     options.tolerance = 1e-12;
     filter_run(&gbuffer, &options, &fast, NULL);
     difference_of(&gbuffer, &exact, &fast, &rmse, &worst);
-    assert_near(worst, 0, 1e-5); /* vectors of other pixels choose other formulas, equal within rounding */
+    assert_true(worst < 1e-4); /* the reach of the sums is measured at every 16th pixel only */
     image_free(&exact);
     image_free(&fast);
     gbuffer_free(&gbuffer);
@@ -945,7 +944,7 @@ int main(void)
         cmocka_unit_test(filter_best__density__weighs_near_things_by_their_solid_angle),
         cmocka_unit_test(filter_best__what_a_near_wall_hides__is_not_seen),
         cmocka_unit_test(filter_fast__wide_and_narrow_lobes__are_near_the_exact_sums),
-        cmocka_unit_test(filter_fast__least_tolerance__is_the_exact_sum),
+        cmocka_unit_test(filter_fast__least_tolerance__is_nearly_the_exact_sum),
         FAST_TOO(filter__constant_radiance__stays_constant_with_every_option),
         FAST_TOO(filter__instruction_sets_and_threads__give_the_same_bits),
         FAST_TOO(filter__unusable_pixels__do_not_spread),
