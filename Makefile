@@ -26,9 +26,12 @@ LDFLAGS += -fsanitize=$(SANITIZE)
 endif
 
 PACKAGES := gcc binutils make libc6-dev pkg-config povray povray-includes povray-examples libopenexr-dev libpng-dev \
-            libcmocka-dev openimageio-tools openexr mandoc dpkg-dev python3-venv perl coreutils findutils
+            libcmocka-dev libsdl2-dev xvfb xdotool imagemagick openimageio-tools openexr mandoc dpkg-dev python3-venv perl \
+            coreutils findutils bubblewrap
 
-PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(wildcard src/main_*.c))
+PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(filter-out src/main_view.c,$(wildcard src/main_*.c)))
+# The window of glossfilter --view, where SDL2 is.
+VIEWER := $(BUILD)/lib/povgloss/view
 # The kernel is compiled once per instruction set from one source.
 ISAS := sse2 avx2 avx512
 KERNEL_OBJECTS := $(ISAS:%=$(BUILD)/obj/filter_kernel_%.o)
@@ -56,7 +59,7 @@ FUZZ_SECONDS := 60
 SCENES := $(patsubst povscenes/%.pov,build/scenes/%.png,$(wildcard povscenes/*.pov))
 
 .PHONY: all
-all: $(PROGRAMS) $(PRELOAD) $(INCLUDE) $(PUBLIC_LIBRARY) ## the programs povgloss and glossfilter, in build/bin
+all: $(PROGRAMS) $(PRELOAD) $(VIEWER) $(INCLUDE) $(PUBLIC_LIBRARY) ## the programs povgloss and glossfilter, in build/bin
 
 $(BUILD)/obj/filter_kernel_sse2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=sse2
 $(BUILD)/obj/filter_kernel_avx2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=avx2 -mavx2
@@ -86,6 +89,12 @@ $(BUILD)/tests/tools/faults.so: tests/tools/preload_faults.c
 $(PRELOAD) $(BUILD)/tests/tools/faults.so: $(FLAGS_STAMP)
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(filter-out -fsanitize=%,$(CFLAGS)) -fPIC -shared -o $@ $(filter %.c,$^) -ldl
+
+$(VIEWER): src/main_view.c $(LIBRARY) $(FLAGS_STAMP)
+	@mkdir -p $(@D)
+	@! pkg-config --exists sdl2 || { set -x; \
+	 $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MMD -MP -MF $(BUILD)/obj/main_view.d -MT $@ -o $@ $< $(LIBRARY) \
+	     $$(pkg-config --cflags --libs sdl2) $(LDLIBS); }
 
 $(LIBRARY): $(LIB_OBJECTS)
 	rm -f $@
@@ -122,7 +131,7 @@ $(BUILD)/tests/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(LIBRARY) $(FLAGS_STAMP)
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -DFUZZ_MUTATOR -fsanitize=fuzzer -o $@ $< $(LIBRARY) $(LDLIBS)
 
-$(FUZZ_REPLAYS) $(FUZZERS): tests/fuzz/fuzz_support.h $(wildcard src/*.h) src/main_povgloss.c
+$(FUZZ_REPLAYS) $(FUZZERS): tests/fuzz/fuzz_support.h $(wildcard src/*.h)
 
 # What follows `deps` on the command line needs what it installs.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
@@ -130,7 +139,7 @@ ifneq ($(filter deps,$(MAKECMDGOALS)),)
 endif
 
 .PHONY: deps
-deps: ## install the Debian packages that building and testing need (apt-get, through sudo when not root)
+deps: ## install what building and testing need: Debian packages (apt-get, through sudo when not root) and Mitsuba
 	@missing=; for package in $(PACKAGES); do \
 	    dpkg-query -W -f '$${Status}\n' $$package 2>/dev/null | grep -q '^install ok installed$$' || \
 	        missing="$$missing $$package"; \
@@ -140,14 +149,24 @@ deps: ## install the Debian packages that building and testing need (apt-get, th
 	    $$sudo apt-get update -qq && \
 	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing; \
 	fi
+	@$(MAKE) --no-print-directory mitsuba || echo "Mitsuba can't be installed: its test will be skipped"
 
-# Its test is skipped where it isn't installed.
+# Only the test of scripts/mitsuba_passes.py needs it.
 .PHONY: mitsuba
-mitsuba: build/mitsuba/bin/python ## install Mitsuba 3 in build/mitsuba, for the test of scripts/mitsuba_passes.py
+mitsuba: build/mitsuba/bin/python ## install Mitsuba 3 in build/mitsuba
 
 build/mitsuba/bin/python:
 	python3 -m venv build/mitsuba
-	build/mitsuba/bin/pip install -q --disable-pip-version-check mitsuba numpy || { rm -rf build/mitsuba; exit 1; }
+	build/mitsuba/bin/pip install -q --disable-pip-version-check --timeout 20 --retries 2 mitsuba numpy || \
+	     { rm -rf build/mitsuba; exit 1; }
+
+.PHONY: slurm
+slurm: ## install Slurm and GNU parallel, for the test of scripts/povgloss-array.sbatch
+	$(MAKE) --no-print-directory deps PACKAGES='slurm-wlm parallel'
+
+.PHONY: trade
+trade: all ## measure error and time of every method (hours): docs/trade.png, the tables of docs/accuracy.md
+	scripts/trade.sh
 
 .PHONY: demo
 demo: build/demo.png ## render the demo scene
@@ -188,6 +207,10 @@ build/figures/figures.png: $(FIGURES)
 check: all $(UNIT_TESTS) $(TOOLS) $(FUZZ_REPLAYS) ## all tests; SANITIZE=address,undefined tests a sanitized build
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools CC=$(CC) scripts/check.sh $(UNIT_TESTS)
 
+.PHONY: accuracy-float
+accuracy-float: $(BUILD)/tests/tools/float_accuracy ## the table of the filters' errors against double, in docs/reliability.md
+	@$<
+
 .PHONY: faults
 faults: $(PROGRAMS) $(PRELOAD) $(TOOLS) ## every call that can fail, failing in turn, and 100 signals (long)
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools FAULTS=all MOMENTS=100 prove --exec '' --timer tests/e2e/faults.sh \
@@ -218,7 +241,7 @@ corpus: $(PROGRAMS) ## run every scene of povray-examples as it is; the table is
 # What is installed, by the folder under PREFIX.
 INSTALLED_bin := $(PROGRAMS)
 INSTALLED_lib := $(PUBLIC_LIBRARY)
-INSTALLED_lib/povgloss := $(PRELOAD)
+INSTALLED_lib/povgloss := $(PRELOAD) $(VIEWER)
 INSTALLED_lib/pkgconfig := $(BUILD)/lib/pkgconfig/libgloss.pc
 INSTALLED_include := src/gloss.h
 INSTALLED_share/povgloss/include := $(INCLUDE)
@@ -238,20 +261,27 @@ $(BUILD)/lib/pkgconfig/libgloss.pc:
 install: all $(INSTALLED_lib/pkgconfig) ## install below PREFIX (/usr/local); DESTDIR goes before it
 	@set -e; $(foreach folder,$(INSTALL_FOLDERS), \
 	    install -d "$(DESTDIR)$(PREFIX)/$(folder)"; \
-	    install -m $(if $(filter bin,$(folder)),755,644) $(INSTALLED_$(folder)) "$(DESTDIR)$(PREFIX)/$(folder)";)
+	    install -m $(if $(filter bin,$(folder)),755,644) $(wildcard $(INSTALLED_$(folder))) \
+	        "$(DESTDIR)$(PREFIX)/$(folder)";)
+	@[ ! -e $(VIEWER) ] || chmod 755 "$(DESTDIR)$(PREFIX)/lib/povgloss/view"
 	@echo "Installed below $(DESTDIR)$(PREFIX)"
 
 .PHONY: uninstall
-uninstall: ## remove what install put below PREFIX
+uninstall: ## remove what install put below PREFIX, and folders that this leaves empty
 	@rm -f $(foreach folder,$(INSTALL_FOLDERS), \
 	    $(patsubst %,"$(DESTDIR)$(PREFIX)/$(folder)/%",$(notdir $(INSTALLED_$(folder)))))
-	@for folder in lib/povgloss share/povgloss/include share/povgloss; do \
-	    [ ! -d "$(DESTDIR)$(PREFIX)/$$folder" ] || rmdir "$(DESTDIR)$(PREFIX)/$$folder"; \
+	@for folder in lib/povgloss lib/pkgconfig share/povgloss/include share/povgloss share/man/man1 share/man/man5 \
+	        share/bash-completion/completions share/bash-completion; do \
+	    [ ! -d "$(DESTDIR)$(PREFIX)/$$folder" ] || rmdir --ignore-fail-on-non-empty "$(DESTDIR)$(PREFIX)/$$folder"; \
 	done
 
 .PHONY: deb
 deb: $(PROGRAMS) ## a Debian package in build/
 	scripts/deb.sh $(VERSION) $(BUILD)
+
+.PHONY: fresh
+fresh: ## type README's commands on a fresh Debian 12, made by debootstrap (root, 15 minutes)
+	scripts/fresh_machine.sh
 
 .PHONY: clean
 clean: ## remove everything that make built
@@ -259,7 +289,7 @@ clean: ## remove everything that make built
 
 .PHONY: help
 help: ## this list
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1 \t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 \t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 24
 
 .SECONDARY:
 -include $(wildcard $(BUILD)/obj/*.d $(BUILD)/tests/*.d $(BUILD)/tests/tools/*.d)

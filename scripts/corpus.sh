@@ -4,10 +4,12 @@
 # usage: scripts/corpus.sh [folder of scenes [WIDTHxHEIGHT]]
 #
 # Every scene is rendered with every reflecting finish glossy, and, where it shows such a finish, with --gloss auto. Where
-# nothing in sight is glossy the base must be POV-Ray's picture to the bit; else the picture with mirrors in place of
+# nothing in sight is glossy the base must be POV-Ray's picture to the bit (the last bit of a half float may differ where
+# something out of sight is); else the picture with mirrors in place of
 # the lobes must be POV-Ray's: RMSE at most 0.002 in linear light and 99.9 % of the pixels within 0.01. Where POV-Ray
-# itself draws another picture when its threads take the pixels in another order (random samples), twice that difference
-# is allowed. Another picture is said where povgloss warned of something in it, and silent where it didn't; where it says
+# itself draws another picture when its threads take the pixels in another order (random samples), or when a camera with
+# focal blur takes all its samples (POV-Ray stops where a few of them happen to be alike), twice that difference is
+# allowed. Another picture is said where povgloss warned of something in it, and silent where it didn't; where it says
 # that its passes don't add up though the picture is POV-Ray's, that is a false alarm. A scene with an .ini file of an
 # animation is drawn with it, in its first frame.
 #
@@ -91,9 +93,19 @@ reason() {
         END { take() }' | sed "s|$scenes/||g; s/^povgloss: //" | tr -s '\t ' ' ' | cut -c 1-400
 }
 
-# spread FOLDER SCENE: the difference between POV-Ray's picture and the one with its threads in another order.
+# spread FOLDER SCENE: the difference between POV-Ray's picture and the one with its threads in another order, or with all
+# samples of its focal blur.
 spread() {
-    [ -e "$1/again/status" ] || draw "$1/again" "$2" +WT2 +BS8
+    if [ ! -e "$1/again/status" ]; then
+        if grep -q '^[^/]*\baperture\b' "$2"; then
+            mkdir -p "$1/again"
+            sed -E 's|^([^/]*)\bvariance\b\s*[-+*/0-9.e]+|\1 |; s|^([^/]*)\b(aperture)\b|\1 variance 0 \2|' "$2" \
+                > "$1/again/all.pov"
+            draw "$1/again" "$1/again/all.pov" "+L$(dirname "$2")"
+        else
+            draw "$1/again" "$2" +WT2 +BS8
+        fi
+    fi
     [ ! -e "$1/again/image.exr" ] || difference "$1/truth/image.exr" "$1/again/image.exr"
 }
 
@@ -137,6 +149,10 @@ judge() {
     fi
     measured=$(difference "$truth" "$picture")
     says "$run/log" "don't add up" && right=alarm
+    # A base of two copies is rounded elsewhere: the last bit of a half float may differ.
+    if [ "$kind" = base ] && ! within "$measured" "$limits" && ! grep -q ': no finish is glossy' "$run/log"; then
+        kind="base, rounded" limits="1e-5 0.001 0"
+    fi
     within "$measured" "$limits" && printf '%s\t%s\t%s\n' "$right" "$kind" "$measured" && return
     random=$(spread "$folder" "$scene")
     within "$measured" "$random" 2 && printf '%s\t%s, random\t%s\t%s\n' "$right" "$kind" "$measured" "$random" && return
@@ -201,6 +217,7 @@ no antialiasing, at most $limit s a picture, $(nproc) processors.
 | | --gloss ${modes[0]} | --gloss ${modes[1]} |
 |---|---|---|
 $(counts "nothing glossy in sight: POV-Ray's picture to the bit" ok base)
+$(counts "the same but for the last bit" ok "base, rounded")
 $(counts "with mirrors POV-Ray's picture" ok mirror)
 $(counts "the same, as far as POV-Ray draws it twice" ok "mirror, random")
 $(counts "another picture, said" said)

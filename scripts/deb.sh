@@ -11,7 +11,7 @@ tree=$work/tree
 
 make --no-print-directory install PREFIX=/usr DESTDIR="$tree" > "$work/log"
 strip "$tree"/usr/bin/*
-strip --strip-unneeded "$tree/usr/lib/povgloss/reads.so"
+strip --strip-unneeded "$tree"/usr/lib/povgloss/*
 strip --strip-debug "$tree/usr/lib/libgloss.a"
 gzip -9n "$tree"/usr/share/man/man*/*
 
@@ -30,8 +30,13 @@ cp README.md docs/passes.md "$doc"
 
 mkdir -p "$work/debian" "$tree/DEBIAN"
 printf 'Source: povgloss\nPackage: povgloss\nArchitecture: any\n' > "$work/debian/control"
-libraries=$(cd "$work" && dpkg-shlibdeps -O tree/usr/bin/* tree/usr/lib/povgloss/reads.so 2> "$work/log" |
-    sed -n 's/^shlibs:Depends=//p') || { cat "$work/log" >&2; exit 1; }
+# The window of glossfilter --view is there where SDL2 was; what it needs is recommended.
+viewer=()
+[ ! -e "$tree/usr/lib/povgloss/view" ] || viewer=(-dRecommends tree/usr/lib/povgloss/view)
+(cd "$work" && dpkg-shlibdeps -O tree/usr/bin/* tree/usr/lib/povgloss/reads.so "${viewer[@]}" > libraries 2> log) ||
+    { cat "$work/log" >&2; exit 1; }
+libraries=$(sed -n 's/^shlibs:Depends=//p' "$work/libraries")
+window=$(sed -n 's/^shlibs:Recommends=/, /p' "$work/libraries")
 cat > "$tree/DEBIAN/control" << END
 Package: povgloss
 Version: $version-1
@@ -39,8 +44,8 @@ Architecture: $(dpkg --print-architecture)
 Maintainer: The povgloss authors <povgloss@packages.invalid>
 Installed-Size: $(du -sk --exclude=DEBIAN "$tree" | cut -f1)
 Depends: $libraries
-Recommends: povray, povray-includes
-Suggests: libc6-dev, pkg-config
+Recommends: povray, povray-includes$window
+Suggests: bubblewrap, libc6-dev, pkg-config
 Section: graphics
 Priority: optional
 Description: glossy reflections for POV-Ray, without noise

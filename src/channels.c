@@ -51,6 +51,13 @@ const struct channel_group channel_groups[CHANNEL_GROUPS] = {
      "the Phong exponent",
      "say it with --phong or --roughness; wherever the endpoint is not all zero is glossy",
      "phong "},
+    {"rays",
+     {"rays.R", "rays.G", "rays.B", "rays.A"},
+     4,
+     false,
+     "the mean radiance of further rays of the lobe, and how many (povgloss passes --rays N)",
+     NULL,
+     "rays "},
 };
 
 /* The layer of a channel's name ("a.b" of "a.b.X"), "" where there is none, and its component ("X"). */
@@ -59,6 +66,12 @@ static const char *split(const char *name, size_t *layer_length)
     const char *dot = strrchr(name, '.');
     *layer_length = dot ? (size_t)(dot - name) : 0;
     return dot ? dot + 1 : name;
+}
+
+/* Whether the first `length` characters of text are the name. */
+static bool is_name(const char *text, size_t length, const char *name)
+{
+    return strlen(name) == length && !memcmp(text, name, length);
 }
 
 /* The channel of the group that a component stands for, or -1. */
@@ -147,9 +160,9 @@ static enum result apply_map(const char *path, const struct exr_contents *conten
         size_t length = (size_t)(name - 1 - text);
         int there = exr_find(contents, name), wanted = -2;
         for (int j = 0; j < group->count; j++)
-            if (strlen(group->names[j]) == length && !strncmp(text, group->names[j], length))
+            if (is_name(text, length, group->names[j]))
                 wanted = j;
-        if (strlen(group->name) == length && !strncmp(text, group->name, length)) {
+        if (is_name(text, length, group->name)) {
             int layer[CHANNELS_MAX];
             int found = find_layer(contents, group, name, strlen(name), layer);
             if (group->count == 1 && there >= 0)
@@ -199,14 +212,14 @@ enum result channels_check_map(const char *text, struct error *err)
     size_t length = equals ? (size_t)(equals - text) : 0;
     for (int i = 0; i < CHANNEL_GROUPS && equals && equals[1]; i++) {
         const struct channel_group *group = &channel_groups[i];
-        if (strlen(group->name) == length && !strncmp(text, group->name, length))
+        if (is_name(text, length, group->name))
             return RESULT_OK;
         for (int j = 0; j < group->count; j++)
-            if (strlen(group->names[j]) == length && !strncmp(text, group->names[j], length))
+            if (is_name(text, length, group->names[j]))
                 return RESULT_OK;
     }
     return error_set(err, RESULT_USAGE,
-                     "--map %s: must be CHANNEL=NAME, the channel one of base, specular, reflectance, P, endpoint and "
-                     "phong, or one like P.X",
+                     "--map %s: must be CHANNEL=NAME, the channel one of base, specular, reflectance, P, endpoint, "
+                     "phong and rays, or one like P.X",
                      text);
 }

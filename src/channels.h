@@ -11,7 +11,7 @@
 #include "exr_io.h"
 #include "mem.h"
 
-enum { CHANNELS_MAX = 4, CHANNEL_GROUPS = 6 };
+enum { CHANNELS_MAX = 4, CHANNEL_GROUPS = 7 };
 
 struct channel_group {
     const char *name;                /* for --map: all its channels at once */
@@ -19,7 +19,7 @@ struct channel_group {
     int count;
     bool required;
     const char *meaning;
-    const char *without; /* what follows where it is missing; NULL: it is required */
+    const char *without; /* what follows where it is missing; NULL: it is required, or nothing */
     const char *aliases; /* each followed by a space; lower case, letters and digits only */
 };
 

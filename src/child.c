@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -67,9 +68,12 @@ int child_wait(struct child *child)
 bool child_has_ended(struct child *child, int *status)
 {
     int ended = 0;
-    if (waitpid(child->pid, &ended, WNOHANG) == 0)
+    struct rusage used = {0};
+    if (wait4(child->pid, &ended, WNOHANG, &used) == 0)
         return false;
     child->pid = 0;
+    child->cpu_s = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                   1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
     child_close_output(child);
     *status = exit_status(ended);
     return true;

@@ -14,6 +14,7 @@
 struct child {
     pid_t pid;     /* 0: not running */
     int output_fd; /* reads what the child writes to its standard error, without blocking; -1: closed */
+    double cpu_s;  /* processor time, once it has ended */
 };
 
 /* Starts argv[0], looked up in PATH, in `directory`, with no standard input and its standard output thrown away.

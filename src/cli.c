@@ -7,7 +7,11 @@
 
 #include "channels.h"
 #include "compose.h"
+#include "input_file.h"
 #include "lobe.h"
+#include "passes_file.h"
+#include "picture.h"
+#include "sheet.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -299,32 +303,41 @@ const char cli_filter_help[] =
     "  --bits N             of a PNG: 8 (default) or 16\n"
     "  --layers             EXR: also the blurred reflection (glossy.*), and how much of the lobe the\n"
     "                       samples cover (confidence.V) or the paper's radius (radius.V)\n"
+    "  --timings            print a table of where the time went to standard error\n"
     "  -q, --quiet          no messages but errors\n";
 
-enum result cli_filter_option(int argc, char **argv, int *index, struct cli_filter *options, bool *taken,
+enum result cli_filter_option(int argc, char **argv, int *index, struct cli_filter *options, enum cli_option *option,
                               struct error *err)
 {
-    const char *argument = argv[*index];
-    *taken = true;
-    if (is(argument, "--layers")) {
-        options->layers = true;
-        *index += 1;
-        return RESULT_OK;
-    }
-    if (is(argument, "--quiet") || is(argument, "-q")) {
-        options->quiet = true;
-        *index += 1;
-        return RESULT_OK;
-    }
+    const struct {
+        const char *name;
+        bool *flag;
+        enum cli_option option;
+    } flags[] = {
+        {"--layers", &options->layers, CLI_OPTION_OUTPUT},
+        {"--timings", &options->show_timings, CLI_OPTION_REPORT},
+        {"--quiet", &options->quiet, CLI_OPTION_REPORT},
+        {"-q", &options->quiet, CLI_OPTION_REPORT},
+    };
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
+        if (is(argv[*index], flags[i].name)) {
+            *flags[i].flag = true;
+            *option = flags[i].option;
+            *index += 1;
+            return RESULT_OK;
+        }
     for (size_t i = 0; i < sizeof filter_options_table / sizeof *filter_options_table; i++) {
         const char *name = filter_options_table[i].name, *value;
         enum result result = cli_value(argc, argv, index, name, &value, err);
         if (result != RESULT_OK)
             return result;
-        if (value)
-            return filter_options_table[i].set(name, value, options, err);
+        if (value) {
+            set_function *set = filter_options_table[i].set;
+            *option = set == set_format || set == set_bits ? CLI_OPTION_OUTPUT : CLI_OPTION_FILTER;
+            return set(name, value, options, err);
+        }
     }
-    *taken = false;
+    *option = CLI_OPTION_NONE;
     return RESULT_OK;
 }
 
@@ -334,6 +347,15 @@ enum result cli_check_output(const char *path, const struct cli_filter *options,
     enum result result = image_format_choose(path, options->format, &format, err);
     if (result != RESULT_OK)
         return result;
+    if (options->layers && format == IMAGE_FORMAT_PNG)
+        return error_set(err, RESULT_USAGE, "--layers: a PNG has no layers; write an EXR (--format exr)");
+    if (strcmp(path, "-") == 0 && isatty(STDOUT_FILENO))
+        return error_set(err, RESULT_USAGE, "standard output is a terminal: redirect it, or name a file with -o");
+    return RESULT_OK;
+}
+
+enum result cli_check_filter(const struct cli_filter *options, struct error *err)
+{
     const struct filter_options *filter = &options->filter;
     const bool of_paper = filter->weights != FILTER_WEIGHTS_EXACT || filter->formula != FILTER_FORMULA_PHONG ||
                           filter->window != FILTER_WINDOW_ROUND || filter->radius_step != 1;
@@ -342,10 +364,6 @@ enum result cli_check_output(const char *path, const struct cli_filter *options,
                          "--weights, --formula, --window and --radius-step are the paper's: add --mode paper");
     if (filter->without && filter->mode != FILTER_MODE_BEST)
         return error_set(err, RESULT_USAGE, "--without is for --mode best");
-    if (options->layers && format == IMAGE_FORMAT_PNG)
-        return error_set(err, RESULT_USAGE, "--layers: a PNG has no layers; write an EXR (--format exr)");
-    if (strcmp(path, "-") == 0 && isatty(STDOUT_FILENO))
-        return error_set(err, RESULT_USAGE, "standard output is a terminal: redirect it, or name a file with -o");
     return RESULT_OK;
 }
 
@@ -364,26 +382,95 @@ static enum result write_picture(const char *path, const struct cli_filter *opti
     return image_write(path, format, options->bits, image, count > 0 ? layers : NULL, count, err);
 }
 
+enum result cli_draw_sheet(const char *path, const struct cli_filter *options, const struct cli_sheet *exponents,
+                           const struct gbuffer *gbuffer, struct error *err)
+{
+    struct image sheet = {0};
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < exponents->count; i++) {
+        struct filter_options filter = options->filter;
+        filter.phong = exponents->phong[i];
+        filter.phong_override = true;
+        struct image image = {0};
+        char label[32];
+        snprintf(label, sizeof label, "p = %g", (double)filter.phong);
+        result = picture_draw(gbuffer, &filter, &image, err);
+        if (!result && i == 0)
+            result = sheet_alloc(&sheet, exponents->count, image.width, image.height, err);
+        if (!result)
+            sheet_put(&sheet, exponents->count, i, &image, label);
+        image_free(&image);
+    }
+    if (!result)
+        result = write_picture(path, options, &sheet, NULL, NULL, err);
+    image_free(&sheet);
+    return result;
+}
+
 enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                       struct image *glossy, struct image *measure, struct error *err)
 {
     struct image image = {0};
+    struct timings_moment start = timings_now();
     enum result result = compose(gbuffer, glossy, &image, err);
     struct image *const images[] = {&image, glossy, measure};
     for (int i = 0; i < 3 && result == RESULT_OK && gbuffer->window.width > 0; i++)
         if (images[i])
             result = image_crop(images[i], &gbuffer->window, err);
+    timings_add(options->timings, "compose", start);
+    start = timings_now();
     if (result == RESULT_OK)
         result = write_picture(path, options, &image, glossy, measure, err);
+    timings_add(options->timings, "write", start);
     image_free(&image);
     return result;
+}
+
+static bool is_finite(const struct image *image, int x, int y)
+{
+    bool finite = true;
+    for (int i = 0; i < 3 && image->pixels; i++)
+        finite = finite && isfinite(image_row(image, i, y)[x]);
+    return finite;
+}
+
+void cli_warn_of_pixels(const char *program, const char *name, const struct cli_filter *options,
+                        const struct gbuffer *gbuffer)
+{
+    if (options->quiet)
+        return;
+    const struct filter_options *filter = &options->filter;
+    bool other = filter->phong_override && gbuffer->rays.pixels && gbuffer->phong.pixels;
+    long left_out = filter_left_out(gbuffer), spoilt = 0, unused = 0;
+    for (int y = 0; y < gbuffer->specular.height; y++)
+        for (int x = 0; x < gbuffer->specular.width; x++) {
+            spoilt += !is_finite(&gbuffer->base, x, y) || !is_finite(&gbuffer->reflectance, x, y);
+            unused += other && image_row(&gbuffer->rays, 3, y)[x] > 0 &&
+                      image_row(&gbuffer->phong, 0, y)[x] != filter->phong;
+        }
+    if (left_out > 0)
+        fprintf(stderr,
+                "%s: warning: %s: %ld glossy pixel%s left out, without a reflection: exponent, position, endpoint or "
+                "specular radiance isn't finite there, or W or the exponent is below 0 (glossfilter --check counts each)\n",
+                program, name, left_out, left_out > 1 ? "s are" : " is");
+    if (spoilt > 0)
+        fprintf(stderr,
+                "%s: warning: %s: base or reflectance isn't finite at %ld pixel%s, and so the picture may not be\n",
+                program, name, spoilt, spoilt > 1 ? "s" : "");
+    if (unused > 0)
+        fprintf(stderr,
+                "%s: warning: %s: the further rays of %ld pixel%s were drawn for another exponent than %g and are left "
+                "out: trace them again by povgloss render --rays N --phong %g, or leave out --phong\n",
+                program, name, unused, unused > 1 ? "s" : "", (double)filter->phong, (double)filter->phong);
 }
 
 enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                      struct error *err)
 {
     struct image glossy = {0}, measure = {0};
+    struct timings_moment start = timings_now();
     enum result result = filter_glossy(gbuffer, &options->filter, &glossy, &measure, err);
+    timings_add(options->timings, "filter", start);
     if (result == RESULT_OK)
         result = cli_write(path, options, gbuffer, &glossy, &measure, err);
     image_free(&glossy);
@@ -391,13 +478,34 @@ enum result cli_draw(const char *path, const struct cli_filter *options, const s
     return result;
 }
 
+/* Exponents with commas between them. */
+static enum result set_sheet(const char *value, struct cli_sheet *sheet, struct error *err)
+{
+    enum { MAX_TEXT = 64 };
+    sheet->count = 0;
+    for (const char *at = value; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        char text[MAX_TEXT];
+        double phong;
+        snprintf(text, sizeof text, "%.*s", (int)strcspn(at, ","), at);
+        enum result result = cli_number("--sheet", text, 0, INFINITY, &phong, err);
+        if (result)
+            return result;
+        if (sheet->count == CLI_SHEET_MAX)
+            return error_set(err, RESULT_USAGE, "--sheet: at most %d exponents", CLI_SHEET_MAX);
+        sheet->phong[sheet->count++] = (float)phong;
+    }
+    return RESULT_OK;
+}
+
 /* One argument that begins with "-". */
 static enum result glossfilter_option(int argc, char **argv, int *index, struct cli_glossfilter *command,
                                       struct error *err)
 {
     const char *argument = argv[*index], *value;
-    if (is(argument, "-h") || is(argument, "--help") || is(argument, "--version") || is(argument, "--check")) {
+    if (is(argument, "-h") || is(argument, "--help") || is(argument, "--version") || is(argument, "--check") ||
+        is(argument, "--view")) {
         *(is(argument, "--check")     ? &command->check
+          : is(argument, "--view")    ? &command->view
           : is(argument, "--version") ? &command->version
                                       : &command->help) = true;
         *index += 1;
@@ -415,11 +523,15 @@ static enum result glossfilter_option(int argc, char **argv, int *index, struct 
         result = channels_check_map(value, err);
     if (result == RESULT_OK && value)
         return text_list_add(&command->map, err, "%s", value);
+    if (result == RESULT_OK)
+        result = cli_value(argc, argv, index, "--sheet", &value, err);
+    if (result == RESULT_OK && value)
+        return set_sheet(value, &command->sheet, err);
     if (result != RESULT_OK)
         return result;
-    bool taken;
-    result = cli_filter_option(argc, argv, index, &command->options, &taken, err);
-    if (result == RESULT_OK && !taken)
+    enum cli_option option;
+    result = cli_filter_option(argc, argv, index, &command->options, &option, err);
+    if (result == RESULT_OK && option == CLI_OPTION_NONE)
         result = error_set(err, RESULT_USAGE, "%s: unknown option; see --help", argument);
     return result;
 }
@@ -436,8 +548,10 @@ enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *comma
             enum result result = glossfilter_option(argc, argv, &index, command, err);
             if (result != RESULT_OK)
                 return result;
+        } else if (command->input && command->band_count == CLI_BANDS_MAX) {
+            return error_set(err, RESULT_USAGE, "%s: at most %d passes files; see --help", argv[index], CLI_BANDS_MAX + 1);
         } else if (command->input) {
-            return error_set(err, RESULT_USAGE, "%s: one passes file only; see --help", argv[index]);
+            command->bands[command->band_count++] = argv[index++];
         } else {
             command->input = argv[index++];
         }
@@ -448,11 +562,34 @@ enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *comma
         return error_set(err, RESULT_USAGE, "no passes file: glossfilter PASSES.exr -o OUT.exr; see --help");
     if (command->check && command->output)
         return error_set(err, RESULT_USAGE, "--check only looks at the passes: leave out -o");
-    if (command->check)
+    if (command->check && command->band_count)
+        return error_set(err, RESULT_USAGE, "%s: --check looks at one passes file", command->bands[0]);
+    if (command->view && (command->check || command->sheet.count))
+        return error_set(err, RESULT_USAGE, "--view opens a window: leave out --check and --sheet");
+    if (command->check || (command->view && !command->output))
         return RESULT_OK;
     if (!command->output)
         return error_set(err, RESULT_USAGE, "no output: say where with -o FILE; see --help");
-    return cli_check_output(command->output, &command->options, err);
+    if (command->sheet.count && (command->options.filter.phong_override || command->options.layers))
+        return error_set(err, RESULT_USAGE, "--sheet has exponents of its own and no layers: leave out %s",
+                         command->options.layers ? "--layers" : "--phong and --roughness");
+    enum result result = cli_check_output(command->output, &command->options, err);
+    return result == RESULT_OK ? cli_check_filter(&command->options, err) : result;
+}
+
+enum result cli_read(const struct cli_glossfilter *command, struct gbuffer *gbuffer, struct error *err)
+{
+    enum result result = passes_file_read_mapped(command->input, &command->map, gbuffer, NULL, err);
+    for (int i = 0; !result && i < command->band_count; i++) {
+        struct gbuffer band;
+        struct error cause;
+        result = passes_file_read_mapped(command->bands[i], &command->map, &band, NULL, err);
+        if (!result && gbuffer_join(gbuffer, &band, &cause))
+            result = error_set(err, RESULT_DATA, "%s: %s", input_file_name(command->bands[i]), cause.text);
+    }
+    if (result)
+        gbuffer_free(gbuffer);
+    return result;
 }
 
 void cli_complain(const char *program, const struct error *err)

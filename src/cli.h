@@ -8,6 +8,7 @@
 #include "filter.h"
 #include "image_file.h"
 #include "mem.h"
+#include "timings.h"
 
 #include <stdbool.h>
 
@@ -17,16 +18,21 @@ struct cli_filter {
     const char *format; /* "exr" or "png"; NULL: by the output's extension */
     int bits;           /* of a PNG: 8 or 16 */
     bool layers;        /* further channels in an EXR: the blurred reflection, the confidence or the radius */
-    bool quiet;
+    bool quiet, show_timings;
+    struct timings *timings; /* gets a row for each step; NULL: none */
 };
 
 struct cli_filter cli_filter_default(void);
 
+/* What an option is about. */
+enum cli_option { CLI_OPTION_NONE, CLI_OPTION_FILTER, CLI_OPTION_OUTPUT, CLI_OPTION_REPORT };
+
 /* Looks at argv[*index]. If it is one of the shared options, applies it, moves *index past it and its value, and
- * *taken is true; else *taken is false and nothing changes. A value follows as the next argument or after "=".
+ * *option says what it is about; else *option is CLI_OPTION_NONE and nothing changes. A value follows as the next
+ * argument or after "=".
  * RESULT_USAGE with the option and what is allowed for a value that is missing or wrong. */
-MUST_CHECK enum result cli_filter_option(int argc, char **argv, int *index, struct cli_filter *options, bool *taken,
-                                         struct error *err);
+MUST_CHECK enum result cli_filter_option(int argc, char **argv, int *index, struct cli_filter *options,
+                                         enum cli_option *option, struct error *err);
 
 /* The shared options' lines of --help. */
 extern const char cli_filter_help[];
@@ -50,23 +56,50 @@ MUST_CHECK enum result cli_integer(const char *option, const char *text, int low
 MUST_CHECK enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                  struct image *glossy, struct image *measure, struct error *err);
 
+/* Warns, unless asked to be quiet, of the pixels of `name` that the filter leaves out, or whose base or reflectance isn't
+ * finite. */
+void cli_warn_of_pixels(const char *program, const char *name, const struct cli_filter *options,
+                        const struct gbuffer *gbuffer);
+
 /* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and confidence.V, of the
  * paper radius.V. */
 MUST_CHECK enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                 struct error *err);
 
-/* Refuses a path and options that cli_draw would refuse, before the work and not after it. */
+/* Exponents of a contact sheet's pictures. */
+enum { CLI_SHEET_MAX = 100 };
+struct cli_sheet {
+    float phong[CLI_SHEET_MAX];
+    int count; /* 0: no sheet */
+};
+
+/* Filters the passes by each exponent, in place of their own, and writes a sheet of the pictures to `path`. */
+MUST_CHECK enum result cli_draw_sheet(const char *path, const struct cli_filter *options,
+                                      const struct cli_sheet *exponents, const struct gbuffer *gbuffer,
+                                      struct error *err);
+
+/* Refuses a path and options of the output that cli_write would refuse, before the work and not after it. */
 MUST_CHECK enum result cli_check_output(const char *path, const struct cli_filter *options, struct error *err);
 
+/* Refuses options of the filter that don't go with its mode. */
+MUST_CHECK enum result cli_check_filter(const struct cli_filter *options, struct error *err);
+
 /* The command line of glossfilter. */
+enum { CLI_BANDS_MAX = 999 };
 struct cli_glossfilter {
     struct cli_filter options;
     const char *input, *output;
+    const char *bands[CLI_BANDS_MAX]; /* further passes files: bands of the same picture */
+    int band_count;
+    struct cli_sheet sheet;
     struct text_list map; /* CHANNEL=NAME; the caller frees it */
-    bool check, help, version;
+    bool check, view, help, version;
 };
 
 MUST_CHECK enum result cli_glossfilter(int argc, char **argv, struct cli_glossfilter *command, struct error *err);
+
+/* Reads the passes file, or joins its bands, into *gbuffer, which the caller frees. */
+MUST_CHECK enum result cli_read(const struct cli_glossfilter *command, struct gbuffer *gbuffer, struct error *err);
 
 /* Prints "program: message" to standard error. */
 void cli_complain(const char *program, const struct error *err);

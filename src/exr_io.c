@@ -7,6 +7,7 @@
 
 #include "bands.h"
 #include "input_file.h"
+#include "mem.h"
 #include "output_file.h"
 
 #include <assert.h>
@@ -499,6 +500,9 @@ static enum result read_contents(struct reader *reader, struct exr_contents *con
         result = read_attributes(&reader->parts[i], &contents->attributes, err);
     if (!result)
         result = check_chunks(reader, err);
+    /* Whoever asks for the file holds its pixels twice at least. */
+    if (!result)
+        result = memory_check(2.0 * (double)sizeof(float) * reader->width * reader->height * reader->channels, err);
     if (!result)
         result = image_alloc(&contents->image, reader->width, reader->height, reader->channels, err);
     if (!result)
@@ -616,8 +620,16 @@ static exr_result_t write_header(exr_context_t context, int part, const struct e
                                  int channel_count, const struct exr_attributes *attributes)
 {
     const struct image *image = channels[0].image;
-    exr_result_t code =
-        exr_initialize_required_attr_simple(context, part, image->width, image->height, EXR_COMPRESSION_ZIP);
+    struct image_window shown = {.width = image->width, .height = image->height};
+    if (attributes && attributes->window.width > 0)
+        shown = attributes->window;
+    const exr_attr_box2i_t display = {.max = {.x = shown.width - 1, .y = shown.height - 1}};
+    const int32_t left = (int32_t)-shown.left, top = (int32_t)-shown.top;
+    const exr_attr_box2i_t data = {.min = {.x = left, .y = top},
+                                   .max = {.x = left + image->width - 1, .y = top + image->height - 1}};
+    const exr_attr_v2f_t centre = {.x = 0, .y = 0};
+    exr_result_t code = exr_initialize_required_attr(context, part, &display, &data, 1, &centre, 1,
+                                                     EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP);
     for (int i = 0; i < channel_count && !code; i++)
         code = exr_add_channel(context, part, channels[i].name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     if (!code)
@@ -643,6 +655,7 @@ struct encoding {
     int channel_count;
     pthread_mutex_t lock;
     pthread_cond_t turn_changed;
+    int top;           /* of the data window */
     int turn;          /* the first row of the chunk that is to be written next */
     exr_result_t code; /* of a chunk that failed: no more are written */
 };
@@ -651,7 +664,7 @@ static exr_result_t wait_for_turn(exr_encode_pipeline_t *pipeline)
 {
     struct encoding *encoding = pipeline->encoding_user_data;
     pthread_mutex_lock(&encoding->lock);
-    while (encoding->turn < pipeline->chunk.start_y && !encoding->code)
+    while (encoding->turn < pipeline->chunk.start_y - encoding->top && !encoding->code)
         pthread_cond_wait(&encoding->turn_changed, &encoding->lock);
     exr_result_t code = encoding->code;
     pthread_mutex_unlock(&encoding->lock);
@@ -671,7 +684,7 @@ static void pass_turn(struct encoding *encoding, int next, exr_result_t code)
 static exr_result_t encode_chunk(struct encoding *encoding, int y, exr_encode_pipeline_t *pipeline)
 {
     exr_chunk_info_t chunk;
-    exr_result_t code = exr_write_scanline_chunk_info(encoding->context, encoding->part, y, &chunk);
+    exr_result_t code = exr_write_scanline_chunk_info(encoding->context, encoding->part, encoding->top + y, &chunk);
     if (!code)
         code = exr_encoding_initialize(encoding->context, encoding->part, &chunk, pipeline);
     if (code)
@@ -728,6 +741,7 @@ static enum result encode(const char *name, struct memory_file *file, const stru
     initializer.write_fn = memory_write;
     struct encoding encoding = {.channels = channels,
                                 .channel_count = channel_count,
+                                .top = attributes && attributes->window.width > 0 ? (int)-attributes->window.top : 0,
                                 .lock = PTHREAD_MUTEX_INITIALIZER,
                                 .turn_changed = PTHREAD_COND_INITIALIZER};
     int32_t lines = 0;

@@ -20,6 +20,7 @@ struct exr_attributes {
     float eye[3];        /* povgloss:eye */
     float view_angle;    /* povgloss:viewAngle; 0: absent */
     float working_gamma; /* povgloss:workingGamma; 0: absent */
+    struct image_window window; /* writing: the display window in the image; width 0: all of it */
 };
 
 /* What was read: channel i has the name names[i] and is plane i of the image. */

@@ -2,6 +2,7 @@
 #include "filter.h"
 
 #include "bands.h"
+#include "control_variate.h"
 #include "filter_cells.h"
 #include "filter_level.h"
 #include "filter_sparse.h"
@@ -12,8 +13,6 @@
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-
-enum { EDGE_REACH_PX = 3 };
 
 struct filter_options filter_options_default(void)
 {
@@ -43,7 +42,8 @@ static void blur(void *context, int first, int end)
     }
     for (int y = first; y < end; y++)
         for (int x = 0; x < filter->level->taps.width && !interrupt_signal(); x += FILTER_LANES)
-            filter_level_blur(filter->level, &filter->view, 0, x, y, scratch);
+            if (filter_level_needs(filter->level, x, x + FILTER_LANES - 1, y))
+                filter_level_blur(filter->level, &filter->view, 0, x, y, scratch);
     free(scratch);
 }
 
@@ -62,7 +62,7 @@ static enum result filter_exact(struct filter_level *level, struct error *err)
 /* Mean of the results of the nearest ring of pixels that has glossy ones. */
 static void edge_fill(const struct filter_level *level, int x, int y)
 {
-    for (int reach = 1; reach <= EDGE_REACH_PX; reach++) {
+    for (int reach = 1; reach <= FILTER_EDGE_REACH_PX; reach++) {
         double sum[3] = {0};
         int count = 0;
         for (int v = y - reach; v <= y + reach; v++)
@@ -118,6 +118,8 @@ static enum result check(const struct gbuffer *gbuffer, const struct filter_opti
         result = check_plane(&gbuffer->endpoint, "endpoint", 4, size, err);
     if (result == RESULT_OK && gbuffer->phong.pixels)
         result = check_plane(&gbuffer->phong, "phong", 1, size, err);
+    if (result == RESULT_OK && gbuffer->rays.pixels)
+        result = check_plane(&gbuffer->rays, "rays", 4, size, err);
     if (result == RESULT_OK && gbuffer->reflectance.pixels)
         result = check_plane(&gbuffer->reflectance, "reflectance", 3, size, err);
     if (result != RESULT_OK)
@@ -179,6 +181,8 @@ enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_opt
         result = bands_run(height, 16, threads, filter_level_radius_fine, &level, err);
     if (result == RESULT_OK)
         result = options->tolerance > 0 ? filter_sparse(&level, options->tolerance, err) : filter_exact(&level, err);
+    if (result == RESULT_OK && gbuffer->rays.pixels)
+        result = control_variate(gbuffer, options->phong_override ? options->phong : NAN, threads, &level.glossy, err);
     if (result == RESULT_OK && gbuffer->reflectance.pixels)
         result = bands_run(height, 16, threads, edges, &level, err);
     if (result == RESULT_OK) {

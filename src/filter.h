@@ -55,12 +55,15 @@ struct filter_options filter_options_default(void);
  *   would no longer reflect.
  * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of
  *   the lobe, and (16 / n)^2 where the lobe holds n pixels only.
+ * With rays in the gbuffer the result is then corrected by them: see control_variate.h.
  * Confidence, 0 to 1: the sum of f over the lobe's integral, the share of the lobe that what is seen covers.
  *
  * Glossy is a pixel whose exponent is above 0 (with no phong plane: whatever the options say, 0 included), whose
  * position, endpoint and specular are finite, whose endpoint is not all zero and has W >= 0. Only glossy pixels are
- * averaged over, so no NaN or infinity spreads. W is divided out. An endpoint 1e12 times as far out as the farthest
- * position counts as a direction; lengths below 1e-24 of the farthest position's count as 0.
+ * averaged over, so no NaN or infinity spreads; filter_left_out() counts the others. W is divided out. An endpoint 1e12
+ * times as far out as the farthest position counts as a direction; one nearer to its a than 1e-15 of the farthest
+ * position's distance from the origin touches it: r = 0. Lengths times any factor (1e-24 to 1e24 is tested) give the
+ * same picture.
  *
  * Weights are relative to the pixel's own endpoint and good to about 1e-6 + 1e-7 sqrt(p) (float positions are no
  * better), tabulated ones to 3.2e-5 more.
@@ -72,14 +75,28 @@ struct filter_options filter_options_default(void);
  * the first of these reaches that is within the tolerance, found at every 16th pixel, serves for those between. What is
  * small and between the first pixels can be missed: docs/performance.md has the errors measured.
  *
- * The pixel itself always counts: with a radius below 1 (a mirror: p of 1e20 and more; a = b, where equation (4) gives
- * 0) the result is L0 itself. Without an eye or view angle the radius is Theta over the angle between the endpoints of
- * neighbouring pixels, seen from a: the smallest over the glossy ones of the four neighbours; 0 where there are none.
+ * A gbuffer with a window has the results that its picture needs alone; the rest of both images is 0.
+ *
+ * Only the angle theta between two endpoints, seen from a, counts: that an endpoint lies behind the surface isn't known.
+ * The weight is 1 at theta = 0, and 0 from 90 degrees on, for p = 0, too. Weights below 2^-120 are 0. p is any float
+ * from 0 to infinity; below about 1e-6 the lobe is uniform. Radiance may be negative and of any size; a result that no
+ * float holds is the largest one, and denormal radiance keeps the digits that it has.
+ *
+ * The pixel itself always counts. The result is L0 itself where p is 1e20 or more, where r = 0 (wherever the eye is),
+ * where no other weight is above 0 and, in the paper's filter, where the radius is below 1. An eye on the surface
+ * (s = 0) gives the radius of Theta itself; no radius exceeds the picture's diagonal. Without an eye or view angle it is
+ * Theta over the angle between the endpoints of neighbouring pixels, seen from a: the smallest over the glossy ones of
+ * the four neighbours; 0 where there are none.
  *
  * RESULT_USAGE: no exponent, or an instruction set this processor lacks. RESULT_DATA: missing planes or sizes that
  * differ, memory. RESULT_INTERRUPTED. On failure both images are empty.
  */
 MUST_CHECK enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_options *options,
                                      struct image *glossy, struct image *radius, struct error *err);
+
+/* Pixels that are meant to be glossy, by an endpoint that isn't all zero and an exponent that isn't 0, and yet are not:
+ * an exponent below 0 or NaN, W below 0, or NaN or infinity in position, endpoint or specular. The planes must be there,
+ * of one size. */
+long filter_left_out(const struct gbuffer *gbuffer);
 
 #endif

@@ -18,6 +18,9 @@ static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
 static const double pi = 3.14159265358979324;
 
+/* In units of the taps, whose farthest position is at 2^20: 1e-15 of that. */
+static const double least_distance = 1e-9;
+
 /* How many times larger tan^2(theta) is of what hides an endpoint: 10 % of the angle are left to the digits of the
  * positions and to bumps. */
 static const float hidden_ratio = 1.21f;
@@ -25,16 +28,12 @@ static const float hidden_ratio = 1.21f;
 /* See help_needed(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 16, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.02;
 
-/* Exponent of a pixel of the passes, or -1: not glossy. */
+/* The exponent of a glossy pixel of the passes. */
 static double passes_phong(const struct filter_shared *filter, int x, int y)
 {
     const struct image *phong = &filter->gbuffer->phong;
-    if (!phong->pixels)
-        return (double)filter->options->phong;
-    float value = image_row(phong, 0, y)[x];
-    if (!(value > 0))
-        return -1;
-    return (double)(filter->options->phong_override ? filter->options->phong : value);
+    bool own = phong->pixels && !filter->options->phong_override;
+    return (double)(own ? image_row(phong, 0, y)[x] : filter->options->phong);
 }
 
 /* The pixel as a tap: a, b with W = 1 or a unit direction with W = 0, and L0. False: not glossy. */
@@ -42,10 +41,9 @@ struct sample {
     double a[3], b[4], radiance[3];
 };
 
-static bool sample_read(const struct filter_shared *filter, int x, int y, struct sample *sample)
+static bool sample_read(const struct gbuffer *gbuffer, int x, int y, struct sample *sample)
 {
-    const struct gbuffer *gbuffer = filter->gbuffer;
-    if (passes_phong(filter, x, y) < 0)
+    if (!gbuffer_is_glossy(gbuffer, x, y))
         return false;
     double sum = 0;
     for (int i = 0; i < 3; i++) {
@@ -57,12 +55,26 @@ static bool sample_read(const struct filter_shared *filter, int x, int y, struct
     if (!isfinite(sum + w) || w < 0)
         return false;
     double length = sqrt(sample->b[0] * sample->b[0] + sample->b[1] * sample->b[1] + sample->b[2] * sample->b[2]);
-    if (w == 0 && length == 0)
-        return false;
     for (int i = 0; i < 3; i++)
         sample->b[i] /= w > 0 ? w : length;
     sample->b[3] = w > 0;
     return true;
+}
+
+long filter_left_out(const struct gbuffer *gbuffer)
+{
+    long count = 0;
+    for (int y = 0; y < gbuffer->specular.height; y++)
+        for (int x = 0; x < gbuffer->specular.width; x++) {
+            struct sample sample;
+            bool meant = false;
+            for (int i = 0; i < 4; i++)
+                meant = meant || image_row(&gbuffer->endpoint, i, y)[x] != 0; /* also NaN */
+            if (gbuffer->phong.pixels)
+                meant = meant && image_row(&gbuffer->phong, 0, y)[x] != 0;
+            count += meant && !sample_read(gbuffer, x, y, &sample);
+        }
+    return count;
 }
 
 void filter_level_scales(struct filter_shared *filter)
@@ -71,7 +83,7 @@ void filter_level_scales(struct filter_shared *filter)
     for (int y = 0; y < filter->gbuffer->specular.height; y++)
         for (int x = 0; x < filter->gbuffer->specular.width; x++) {
             struct sample sample;
-            if (!sample_read(filter, x, y, &sample))
+            if (!sample_read(filter->gbuffer, x, y, &sample))
                 continue;
             for (int i = 0; i < 3; i++) {
                 coordinate = fmax(coordinate, fabs(sample.a[i]));
@@ -130,7 +142,7 @@ void filter_level_taps(void *context, int first, int end)
     for (int y = first; y < end; y++)
         for (int x = 0; x < taps->width; x++) {
             struct sample sample;
-            if (!sample_read(level->shared, x, y, &sample))
+            if (!sample_read(level->shared->gbuffer, x, y, &sample))
                 continue;
             double b[4], largest = 0;
             memcpy(b, sample.b, sizeof b);
@@ -372,7 +384,7 @@ static bool lane_fill(const struct filter_level *level, int x, int y, int l, str
     filter_level_position(level, x, y, a);
     double distance = filter_level_direction(level, a, x, y, direction);
     bool one_tap = level->shared->options->mode == FILTER_MODE_PAPER && image_row(&level->radius, 0, y)[x] < 1;
-    if (phong >= FILTER_MIRROR_PHONG || distance == 0 || one_tap)
+    if (phong >= FILTER_MIRROR_PHONG || distance < least_distance || one_tap)
         return false;
     for (int i = 0; i < 3; i++) {
         lanes->a[i][l] = a[i];
@@ -607,6 +619,15 @@ static void blur_best(struct filter_level *level, const struct filter_view *view
         double lobe = lobe_integral(phong, shared->floor);
         image_row(&level->confidence, 0, y)[x + l * step] = used[l] ? (float)fmin(seen.value[3][l] / lobe, 1) : 1;
     }
+}
+
+bool filter_level_needs(const struct filter_level *level, int first, int last, int y)
+{
+    const struct image_window *window = &level->shared->gbuffer->window;
+    return window->width == 0 || (y >= window->top - FILTER_EDGE_REACH_PX &&
+                                  y < window->top + window->height + FILTER_EDGE_REACH_PX &&
+                                  last >= window->left - FILTER_EDGE_REACH_PX &&
+                                  first < window->left + window->width + FILTER_EDGE_REACH_PX);
 }
 
 void filter_level_blur(struct filter_level *level, const struct filter_view *view, int inner, int x, int y,

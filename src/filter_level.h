@@ -66,6 +66,12 @@ void filter_level_blur(struct filter_level *level, const struct filter_view *vie
                        float *scratch);
 size_t filter_level_scratch(const struct filter_view *view);
 
+/* Edges take the mean of results at most so far away. */
+enum { FILTER_EDGE_REACH_PX = 3 };
+
+/* Whether the picture needs a result in columns first to last of row y: a margin is only looked at. */
+bool filter_level_needs(const struct filter_level *level, int first, int last, int y);
+
 const float *filter_level_tap(const struct filter_level *level, enum filter_plane plane, int x, int y);
 bool filter_level_is_tap(const struct filter_level *level, int x, int y);
 double filter_level_phong(const struct filter_level *level, int x, int y);

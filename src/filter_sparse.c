@@ -184,7 +184,8 @@ struct look {
 static void look_at(const struct sparse *sparse, int x, int y, struct look *look)
 {
     const struct filter_level *level = sparse->level;
-    look->wanted = x < level->taps.width && filter_level_phong(level, x, y) >= 0;
+    look->wanted = x < level->taps.width && filter_level_phong(level, x, y) >= 0 &&
+                   filter_level_needs(level, x, x, y);
     look->guessed = look->needed = false;
     look->reach = -1;
     if (!look->wanted)

@@ -40,6 +40,11 @@ static enum result take_all(const struct gloss_planes *planes, struct gbuffer *g
         result = take(planes, &planes->phong, 1, "phong", &gbuffer->phong, err);
     if (!result && planes->reflectance[0])
         result = take(planes, planes->reflectance, 3, "reflectance", &gbuffer->reflectance, err);
+    bool finite = isfinite(planes->view_angle) && planes->view_angle >= 0;
+    for (int i = 0; i < 3 && planes->eye; i++)
+        finite = finite && isfinite(planes->eye[i]);
+    if (!result && !finite)
+        result = error_set(err, RESULT_USAGE, "the eye or the view angle isn't finite, or the angle is below 0");
     if (planes->eye) {
         gbuffer->has_eye = true;
         memcpy(gbuffer->eye, planes->eye, sizeof gbuffer->eye);

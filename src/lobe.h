@@ -1,4 +1,7 @@
-/* The glossy lobe: equations (2) to (5) of "Fuzzy reflections rendering", Kulikova and Dmitriev, 2002. */
+/* The glossy lobe: equations (2) to (5) of "Fuzzy reflections rendering", Kulikova and Dmitriev, 2002.
+ *
+ * No function has an argument below 0 or NaN but for cosines and roughness; the callers refuse those.
+ */
 #ifndef POVGLOSS_LOBE_H
 #define POVGLOSS_LOBE_H
 
@@ -23,7 +26,7 @@ double lobe_integral(double phong, double floor);
  * - a| in one unit, 0 to infinity. r = infinity (a miss) and s = 0 give Theta; r = 0 gives 0, whatever s. */
 double lobe_alpha(double half_angle_rad, double eye_distance, double endpoint_distance);
 
-/* Equation (5): rho = alpha width / view angle, pixels. */
+/* Equation (5): rho = alpha width / view angle, pixels; the view angle is above 0. */
 double lobe_radius_px(double alpha_rad, double width_px, double view_angle_rad);
 
 /* p = (1/r^4 - 1)/2: the Phong exponent of the reflected lobe of a microfacet surface of slope parameter r^2 (Walter

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,6 +86,26 @@ void text_list_free(struct text_list *list)
         free(list->texts[i]);
     free(list->texts);
     *list = (struct text_list){0};
+}
+
+enum result memory_check(double bytes, struct error *err)
+{
+    char line[128];
+    double kb, free_kb = 0;
+    bool known = false;
+    FILE *stream = fopen("/proc/meminfo", "re");
+    while (stream && fgets(line, sizeof line, stream)) {
+        if (sscanf(line, "MemAvailable: %lf", &kb) != 1 && sscanf(line, "SwapFree: %lf", &kb) != 1)
+            continue;
+        known |= line[0] == 'M';
+        free_kb += kb;
+    }
+    if (stream)
+        fclose(stream);
+    if (!known || bytes <= 1024 * free_kb)
+        return RESULT_OK;
+    return error_set(err, RESULT_DATA, "out of memory: %.2g GB are needed, and %.2g GB are free; a smaller image needs less",
+                     1e-9 * bytes, 1024e-9 * free_kb);
 }
 
 enum result file_write(const char *path, const struct buffer *buffer, struct error *err)

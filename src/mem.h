@@ -34,6 +34,10 @@ __attribute__((format(printf, 3, 4))) MUST_CHECK enum result text_list_add(struc
                                                                            const char *format, ...);
 void text_list_free(struct text_list *list);
 
+/* RESULT_DATA, with both figures, for more bytes than the system says are free, swap included (/proc/meminfo): it would
+ * hand them out, and end a process when they are used. */
+MUST_CHECK enum result memory_check(double bytes, struct error *err);
+
 /* Writes a whole new file or replaces its content; for files in a folder of our own. */
 MUST_CHECK enum result file_write(const char *path, const struct buffer *buffer, struct error *err);
 

@@ -37,6 +37,29 @@ static enum result read_codes(const struct pass_images *images, enum pass_id id,
     return result;
 }
 
+enum result pass_images_glossy(const struct pass_images *images, struct image_window *window, struct error *err)
+{
+    enum { MARGIN = 2 };
+    struct image codes = {0};
+    enum result result = read_codes(images, PASS_EXPONENT, &codes, err);
+    int left = codes.width, top = codes.height, right = 0, bottom = 0;
+    for (int y = 0; y < codes.height; y++)
+        for (int x = 0; x < codes.width; x++)
+            if (image_row(&codes, 2, y)[x] > 0) {
+                left = x < left ? x : left;
+                right = x >= right ? x + 1 : right;
+                top = y < top ? y : top;
+                bottom = y + 1;
+            }
+    left = left > MARGIN && right > 0 ? left - MARGIN : 0;
+    top = top > MARGIN && right > 0 ? top - MARGIN : 0;
+    right = right + MARGIN < codes.width ? right + MARGIN : codes.width;
+    bottom = bottom + MARGIN < codes.height ? bottom + MARGIN : codes.height;
+    *window = (struct image_window){.left = left, .top = top, .width = right - left, .height = bottom - top};
+    image_free(&codes);
+    return result;
+}
+
 enum result pass_images_radiance(const struct pass_images *images, enum pass_id id, struct image *image,
                                  struct error *err)
 {
@@ -80,6 +103,34 @@ static enum result read_coded(const struct pass_images *images, enum pass_id hig
     return result;
 }
 
+static bool locate(const struct image *positions, const struct image *directions, struct camera *camera)
+{
+    struct gbuffer gbuffer = {.position = *positions};
+    eye_find(&gbuffer, directions);
+    for (int axis = 0; axis < 3; axis++)
+        camera->location[axis] = (double)gbuffer.eye[axis];
+    return gbuffer.has_eye;
+}
+
+enum result pass_images_camera(const struct pass_images *images, struct camera *camera, bool *found, int *width,
+                               int *height, struct error *err)
+{
+    struct image directions = {0}, positions = {0}, few = {0};
+    enum result result = read_coded(images, PASS_DIRECTION, PASS_DIRECTION, NULL, &directions, err);
+    if (!result)
+        result = read_coded(images, PASS_PLACE, PASS_PLACE_LOW, NULL, &positions, err);
+    *found = !result && camera_fit(&directions, camera);
+    if (*found)
+        result = camera_directions(camera, positions.width, positions.height, &few, err);
+    *found = *found && !result && locate(&positions, &few, camera);
+    *width = directions.width;
+    *height = directions.height;
+    image_free(&directions);
+    image_free(&positions);
+    image_free(&few);
+    return result;
+}
+
 /* What a glossy surface reflects is one half of the working space. */
 static void scale_reflectance(struct image *reflectance, double gamma)
 {
@@ -114,24 +165,11 @@ static enum result clear_haze(const struct pass_images *images, struct image *sp
     return result;
 }
 
-/* A mixed texture dims the mirror by its share, as it dims the reflectance. */
-static void unmix_specular(struct image *specular, const struct image *exponents, double gamma)
-{
-    for (int channel = 0; same_size(specular, exponents) && channel < 3; channel++)
-        for (int y = 0; y < specular->height; y++) {
-            const float *share = image_row(exponents, 2, y);
-            float *row = image_row(specular, channel, y);
-            for (int x = 0; x < specular->width; x++)
-                if (share[x] > LEAST_SHARE && share[x] < 0.9999f)
-                    row[x] = (float)gamma_decode(gamma, gamma_encode(gamma, (double)row[x]) / (double)share[x]);
-        }
-}
-
 /* The exponent of a pixel whose code is (high, low, 1), see mirror_exponent. */
 static float decode_exponent(double high, double low)
 {
     double code = (round(65535 * high) + low) / 65535; /* a float holds the 16 bits, but not their quotient */
-    return (float)fmax(expm1(128 * code * log(2)), 1e-6);
+    return (float)exp2(128 * code - 20);
 }
 
 static enum result alloc_exponents(struct gbuffer *gbuffer, const struct image *codes, struct error *err)
@@ -155,22 +193,104 @@ static bool is_total_reflection(const struct image *codes, int x, int y)
            image_row(codes, 0, y)[x] > 0.95f * image_row(codes, 2, y)[x];
 }
 
-/* phong: 0 where the camera sees nothing glossy. */
-static void fill_exponents(struct gbuffer *gbuffer, double single, const struct image *codes)
+/* The exponent at a pixel: 0 where nothing is glossy. */
+static float exponent_at(const struct image *codes, int x, int y)
+{
+    double share = (double)image_row(codes, 2, y)[x];
+    if (share <= (double)LEAST_SHARE || is_total_reflection(codes, x, y))
+        return 0;
+    return decode_exponent((double)image_row(codes, 0, y)[x] / share, (double)image_row(codes, 1, y)[x] / share);
+}
+
+/* phong: 0 where the camera sees nothing glossy. `means`: the antialiased exponents, or an empty image. */
+static void fill_exponents(struct gbuffer *gbuffer, double single, const struct image *codes, const struct image *means)
 {
     for (int y = 0; y < gbuffer->phong.height; y++)
         for (int x = 0; x < gbuffer->phong.width; x++) {
             bool glossy = any_nonzero(&gbuffer->position, x, y) && any_nonzero(&gbuffer->endpoint, x, y) &&
                           !is_total_reflection(codes, x, y);
             float exponent = 0;
-            double share = codes->pixels ? (double)image_row(codes, 2, y)[x] : 1;
             if (glossy && single >= 0)
                 exponent = (float)fmax(single, 1e-6);
-            else if (glossy && share > (double)LEAST_SHARE)
-                exponent = decode_exponent((double)image_row(codes, 0, y)[x] / share,
-                                           (double)image_row(codes, 1, y)[x] / share);
+            else if (glossy)
+                exponent = exponent_at(codes, x, y);
+            float mean = exponent > 0 && means->pixels ? exponent_at(means, x, y) : 0;
+            exponent = mean > 0 ? mean : exponent;
             image_row(&gbuffer->phong, 0, y)[x] = exponent >= 1e20f ? INFINITY : exponent;
         }
+}
+
+/* A weighted specular pass holds L0 as the surfaces reflect it: divided by their reflectivity, mixed alike, it is L0 again. A
+ * pixel that reflects nothing isn't glossy. */
+static enum result divide_specular(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
+{
+    const double gamma = images->scene->working_gamma;
+    const float least = 1e-4f;
+    struct image reflectivity = {0};
+    enum result result = pass_images_radiance(images, PASS_REFLECTIVITY, &reflectivity, err);
+    if (!result && !same_size(&reflectivity, &gbuffer->specular))
+        result = error_set(err, RESULT_DATA,
+                           "%s: POV-Ray's images of the specular and the reflectivity pass are of different sizes", images->name);
+    if (!result)
+        scale_reflectance(&reflectivity, gamma);
+    for (int y = 0; !result && y < reflectivity.height; y++)
+        for (int x = 0; x < reflectivity.width; x++) {
+            bool reflects = false;
+            for (int channel = 0; channel < 3; channel++) {
+                float *radiance = &image_row(&gbuffer->specular, channel, y)[x];
+                float weight = image_row(&reflectivity, channel, y)[x];
+                bool here = weight > least;
+                *radiance = here ? (float)gamma_decode(gamma, gamma_encode(gamma, (double)*radiance) / (double)weight) : 0;
+                reflects |= here;
+            }
+            if (!reflects)
+                image_row(&gbuffer->phong, 0, y)[x] = 0;
+        }
+    image_free(&reflectivity);
+    return result;
+}
+
+static void copy_surface(struct gbuffer *gbuffer, size_t from, size_t to)
+{
+    struct image *const planes[] = {&gbuffer->position, &gbuffer->endpoint, &gbuffer->phong};
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
+        for (int channel = 0; channel < planes[i]->channels; channel++) {
+            int width = planes[i]->width, column = (int)(from % (size_t)width), row = (int)(from / (size_t)width);
+            image_row(planes[i], channel, (int)(to / (size_t)width))[to % (size_t)width] =
+                image_row(planes[i], channel, row)[column];
+        }
+}
+
+/* The aperture sees glossy surfaces beyond the silhouettes that its centre sees: there they have a, b and the exponent of the
+ * nearest glossy pixel. */
+static enum result widen_surfaces(struct gbuffer *gbuffer, struct error *err)
+{
+    const int width = gbuffer->phong.width, height = gbuffer->phong.height;
+    const size_t count = (size_t)width * (size_t)height;
+    size_t *queue = malloc(count * sizeof *queue), first = 0, end = 0;
+    bool *reached = calloc(count, sizeof *reached);
+    enum result result = queue && reached ? RESULT_OK : error_memory(err, (double)count * sizeof *queue);
+    for (size_t i = 0; !result && i < count; i++)
+        if (image_row(&gbuffer->phong, 0, (int)(i / (size_t)width))[i % (size_t)width] > 0) {
+            reached[i] = true;
+            queue[end++] = i;
+        }
+    while (!result && first < end) {
+        size_t from = queue[first++];
+        int x = (int)(from % (size_t)width), y = (int)(from / (size_t)width);
+        for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < height; v++)
+            for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < width; u++) {
+                size_t to = (size_t)v * (size_t)width + (size_t)u;
+                if (reached[to] || !any_nonzero(&gbuffer->specular, u, v))
+                    continue;
+                reached[to] = true;
+                copy_surface(gbuffer, from, to);
+                queue[end++] = to;
+            }
+    }
+    free(queue);
+    free(reached);
+    return result;
 }
 
 /* Where nothing is glossy a is 0 and so is b: the passes file holds what the filter needs. */
@@ -272,6 +392,31 @@ static void note_lost(const struct gbuffer *gbuffer, const char *scene, struct e
                   scene, 100 * part);
 }
 
+/* What is rendered of the picture alone gets the size of what has a margin, black there. */
+static enum result widen(const struct pass_images *images, struct gbuffer *gbuffer, struct image *directions,
+                         struct error *err)
+{
+    int width = gbuffer->base.width, height = gbuffer->base.height;
+    const struct image_window all = {.left = -images->margin_x,
+                                     .top = -images->margin_y,
+                                     .width = width + 2 * images->margin_x,
+                                     .height = height + 2 * images->margin_y};
+    gbuffer->window = (struct image_window){
+        .left = images->margin_x, .top = images->margin_y, .width = width, .height = height};
+    enum result result = image_crop(&gbuffer->base, &all, err);
+    if (!result)
+        result = image_crop(&gbuffer->reflectance, &all, err);
+    return result ? result : image_crop(directions, &all, err);
+}
+
+static void set_eye(const struct camera *camera, struct gbuffer *gbuffer)
+{
+    gbuffer->has_eye = true;
+    for (int axis = 0; axis < 3; axis++)
+        gbuffer->eye[axis] = (float)camera->location[axis];
+    gbuffer->view_angle = (float)(camera_view_angle(camera) * gbuffer->position.width / gbuffer->window.width);
+}
+
 /* Nothing is glossy: the base is all. */
 static enum result make_dull(struct gbuffer *gbuffer, struct error *err)
 {
@@ -291,12 +436,16 @@ static enum result make_dull(struct gbuffer *gbuffer, struct error *err)
 enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
                              struct error *err)
 {
-    struct image directions = {0}, codes = {0};
+    struct image directions = {0}, codes = {0}, means = {0};
     enum result result = pass_images_radiance(images, PASS_BASE, &gbuffer->base, err);
     if (result || !images->scene->glossy)
         return result ? result : make_dull(gbuffer, err);
-    if (pass_needed(images->scene, PASS_EXPONENT))
+    if (pass_exponents_differ(images->scene))
         result = read_codes(images, PASS_EXPONENT, &codes, err);
+    if (!result && pass_needed(images->scene, PASS_EXPONENT_MEAN))
+        result = read_codes(images, PASS_EXPONENT_MEAN, &means, err);
+    if (!result && means.pixels && !same_size(&means, &codes))
+        result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the exponents are of different sizes", images->name);
     if (!result)
         result = pass_images_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
     if (!result && pass_needed(images->scene, PASS_HAZE))
@@ -311,16 +460,27 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         result = read_coded(images, PASS_ENDPOINT, PASS_ENDPOINT_LOW, &codes, &gbuffer->endpoint, err);
     if (!result)
         result = read_coded(images, PASS_DIRECTION, PASS_DIRECTION, NULL, &directions, err);
+    if (!result && images->camera)
+        result = widen(images, gbuffer, &directions, err);
     if (!result)
         result = alloc_exponents(gbuffer, &codes, err);
     if (!result)
+        scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
+    if (!result)
         result = check_sizes(images, gbuffer, &directions, err);
     if (!result) {
-        fill_exponents(gbuffer, images->scene->exponent, &codes);
-        unmix_specular(&gbuffer->specular, &codes, images->scene->working_gamma);
-        scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
+        fill_exponents(gbuffer, images->scene->exponent, &codes, &means);
+        if (pass_weights_specular(images->scene))
+            result = divide_specular(images, gbuffer, err);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
-        eye_find(gbuffer, &directions);
+        if (images->camera)
+            set_eye(images->camera, gbuffer);
+        else
+            eye_find(gbuffer, &directions);
+    }
+    if (!result && images->scene->focal_blur)
+        result = widen_surfaces(gbuffer, err);
+    if (!result) {
         clear_unused(gbuffer);
         note_invisible(gbuffer, images->name, note);
         if (images->subsample > 1)
@@ -335,5 +495,6 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     else
         image_free(&directions);
     image_free(&codes);
+    image_free(&means);
     return result;
 }

@@ -2,6 +2,7 @@
 #ifndef POVGLOSS_PASS_IMAGES_H
 #define POVGLOSS_PASS_IMAGES_H
 
+#include "camera.h"
 #include "gbuffer.h"
 #include "pass_scene.h"
 
@@ -13,6 +14,8 @@ struct pass_images {
     const struct scene *scene;
     int subsample;
     bool rays; /* with those of the mirror */
+    int margin_x, margin_y; /* in which the passes for the filter are wider than the picture, on each side; px */
+    const struct camera *camera; /* of the picture, with its eye; NULL without a margin */
 };
 
 /* The path of a pass's image, which the caller frees: folder/pass/image03.exr, .png for codes. */
@@ -23,8 +26,18 @@ MUST_CHECK enum result pass_image_path(const struct pass_images *images, enum pa
 MUST_CHECK enum result pass_images_radiance(const struct pass_images *images, enum pass_id id, struct image *image,
                                             struct error *err);
 
+/* The smallest window with all pixels at which the exponent pass saw something glossy, and 2 more on each side (the
+ * others' silhouettes are antialiased); a corner of the picture where it saw nothing. */
+MUST_CHECK enum result pass_images_glossy(const struct pass_images *images, struct image_window *window,
+                                          struct error *err);
+
+/* The picture's camera, with its location, from the passes that find it, and the picture's size. *found is false where it
+ * isn't a perspective camera or sees nothing to tell its location by. */
+MUST_CHECK enum result pass_images_camera(const struct pass_images *images, struct camera *camera, bool *found,
+                                          int *width, int *height, struct error *err);
+
 /* Reads and decodes all of them into *gbuffer: a and b, the eye, exponents, reflectance in the working space; subsampled
- * passes interpolated. RESULT_DATA where an image is missing, broken or of another size than the others; then, too, the
+ * passes interpolated; with a margin the window is the picture in them. RESULT_DATA where an image is missing, broken or of another size than the others; then, too, the
  * caller frees the gbuffer. *note is a warning worth a line where nothing glossy is seen. */
 MUST_CHECK enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
                                         struct error *err);

@@ -17,6 +17,11 @@ static const char end_mirror[] = "povgloss_dark()\n"
                                  "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
 static const char end_haze[] = "povgloss_dark()\n"
                                "  #if (povgloss_phong >= 0 | povgloss_reflects) reflection { 0 } #end";
+/* The same where a glossy finish keeps its reflectivity: any other reflects something next to white (to the power 1e-6), in the
+ * haze as well. */
+#define PLAIN_WHITE "#else #if (povgloss_reflects) reflection_exponent 1e6 #end #end"
+static const char end_reflection[] = "povgloss_dark()\n  #if (povgloss_phong >= 0) reflection_exponent 1\n  " PLAIN_WHITE;
+static const char end_haze_of_reflection[] = "povgloss_dark()\n  #if (povgloss_phong >= 0) reflection { 0 }\n  " PLAIN_WHITE;
 /* The sky is next to black, as a total reflection shows it, which isn't glossy. POV-Ray takes what a finish reflects to the
  * power 1/exponent: 20 makes one half of the sky, 0.001 nothing, and leaves the reflectivity for a later Gloss(). */
 static const char end_reflectance[] = "povgloss_dark()\n"
@@ -24,13 +29,17 @@ static const char end_reflectance[] = "povgloss_dark()\n"
                                       "  #else #if (povgloss_reflects) reflection_exponent 0.001 #end #end";
 
 static const char mirror_white[] = "rgb 1";
-/* log2(1 + p)/128 in two digits of 16 bits. */
-static const char mirror_exponent[] = "#local povgloss_v = 65535*log(1 + povgloss_phong)/log(2)/128;\n"
-                                      "  rgb <floor(povgloss_v)/65535, povgloss_v - floor(povgloss_v), 1>";
+/* An exponent is coded as (20 + log2 p)/128, in two digits of 16 bits. That of a painted finish is in its pigment. */
+static const char mirror_exponent[] =
+    "#local povgloss_v = 65535*povgloss_exponent_code(povgloss_phong);\n"
+    "  rgb (povgloss_phong < povgloss_maps_from)*<floor(povgloss_v)/65535, povgloss_v - floor(povgloss_v), 1>";
 
-static const char sky_half[] = "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n"
-                               "sky_sphere { pigment { rgb pow(0.5, 20) } }\n";
-static const char sky_white[] = "sky_sphere { pigment { rgb 1 } }\n";
+/* For mirrored rays only. */
+#define SKY(colour) \
+    "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n" \
+    "sky_sphere { pigment { rgb " colour " } }\n"
+static const char sky_half[] = SKY("pow(0.5, 20)");
+static const char sky_white[] = SKY("1");
 #define MIRRORS "no_reflection no_shadow no_radiosity"
 #define SEEN_IN_MIRRORS "no_image"
 static const char outside[] = "povgloss_leave_copy() object { povgloss_object } povgloss_enter_copy()";
@@ -49,19 +58,31 @@ const struct pass pass_table[PASS_COUNT] = {
                              .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
     [PASS_SPECULAR] = {.name = "specular",
+                       .margin = true,
+                       .glossy_part = true,
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
     [PASS_HAZE] = {.name = "haze",
+                   .margin = true,
+                   .glossy_part = true,
                    .mirror_colour = mirror_white,
                    .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                    .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_haze}},
     [PASS_REFLECTANCE] = {.name = "reflectance",
+                          .glossy_part = true,
                           .full_size = true,
                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
                           .second = {.copy = -1},
                           .trailer = sky_half},
+    [PASS_REFLECTIVITY] = {.name = "reflectivity",
+                           .glossy_part = true,
+                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
+                           .second = {.copy = -1},
+                           .trailer = sky_half},
     [PASS_POSITION] = {.name = "position",
+                       .margin = true,
+                       .glossy_part = true,
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
@@ -69,6 +90,8 @@ const struct pass pass_table[PASS_COUNT] = {
                        .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                        .second = {.copy = -1}},
     [PASS_POSITION_LOW] = {.name = "position-low",
+                           .margin = true,
+                           .glossy_part = true,
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
@@ -76,6 +99,8 @@ const struct pass pass_table[PASS_COUNT] = {
                            .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
                            .second = {.copy = -1}},
     [PASS_ENDPOINT] = {.name = "endpoint",
+                       .margin = true,
+                       .glossy_part = true,
                        .codes = true,
                        .technical = true,
                        .digits = POSITION_DIGITS_HIGH,
@@ -85,6 +110,8 @@ const struct pass pass_table[PASS_COUNT] = {
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .coded_sky = true},
     [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
+                           .margin = true,
+                           .glossy_part = true,
                            .codes = true,
                            .technical = true,
                            .digits = POSITION_DIGITS_LOW,
@@ -101,18 +128,43 @@ const struct pass pass_table[PASS_COUNT] = {
                         .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS},
                         .second = {.copy = -1},
                         .coded_sky = true},
+    [PASS_PLACE] = {.name = "place",
+                    .codes = true,
+                    .technical = true,
+                    .digits = POSITION_DIGITS_HIGH,
+                    .clear_from = CLEAR,
+                    .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
+                    .second = {.copy = -1}},
+    [PASS_PLACE_LOW] = {.name = "place-low",
+                        .codes = true,
+                        .technical = true,
+                        .digits = POSITION_DIGITS_LOW,
+                        .clear_from = CLEAR,
+                        .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
+                        .second = {.copy = -1}},
     [PASS_EXPONENT] = {.name = "exponent",
+                       .margin = true,
                        .codes = true,
                        .technical = true,
                        .mirror_colour = mirror_exponent,
                        .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .second = {.copy = -1},
                        .trailer = sky_white},
+    [PASS_EXPONENT_MEAN] = {.name = "exponent-mean",
+                            .margin = true,
+                            .codes = true,
+                            .smooth = true,
+                            .technical = true,
+                            .mirror_colour = mirror_exponent,
+                            .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
+                            .second = {.copy = -1},
+                            .trailer = sky_white},
     [PASS_OWN] = {.name = "own",
                   .full_size = true,
                   .first = {.copy = SCENE_COPY_PLAIN, .modifiers = ""},
                   .second = {.copy = -1}},
     [PASS_MIRROR] = {.name = "mirror",
+                     .glossy_part = true,
                      .codes = true,
                      .technical = true,
                      .digits = POSITION_DIGITS_HIGH,
@@ -121,6 +173,7 @@ const struct pass pass_table[PASS_COUNT] = {
                      .second = {.copy = -1},
                      .coded_sky = true},
     [PASS_MIRROR_LOW] = {.name = "mirror-low",
+                         .glossy_part = true,
                          .codes = true,
                          .technical = true,
                          .digits = POSITION_DIGITS_LOW,
@@ -148,6 +201,11 @@ static enum result add_coded_macros(const struct pass *pass, struct buffer *text
                          pass->clear_from);
 }
 
+static bool is_mirror_copy(const struct scene_part *part)
+{
+    return part->copy == SCENE_COPY_MIRROR || part->copy == SCENE_COPY_MIRROR_SECOND;
+}
+
 /* What takes the place of povgloss_cover, a pigment that may be transparent, in a texture and in an object. */
 static enum result add_cover_macros(const struct scene_part *part, struct buffer *text, struct error *err)
 {
@@ -156,7 +214,7 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
                                "    function { min(0.999, povgloss_through(x, y, z).filter + "
                                "povgloss_through(x, y, z).transmit) }\n"
                                "    color_map { [0 rgb 0] [%1$g rgb 0] [%1$g rgbt 1] [1 rgbt 1] } }";
-    bool mirror = part->copy == SCENE_COPY_MIRROR || part->copy == SCENE_COPY_MIRROR_SECOND;
+    bool mirror = is_mirror_copy(part);
     char *thinned;
     enum result result = text_printf(&thinned, err, thin, CLEAR);
     if (!result)
@@ -175,15 +233,15 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
                                "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
                                "    min(povgloss_lower, povgloss_t)>;\n"
                                "  #declare povgloss_last = povgloss_texture; povgloss_count(<-1, 0, -1, povgloss_t>)\n"
-                               "  povgloss_set_default(povgloss_t) %s povgloss_set_default(0)\n#end\n"
+                               "  povgloss_set_default(povgloss_t) %s %s %s povgloss_set_default(0)\n#end\n"
                                "#macro povgloss_cover_of_object(povgloss_uv)\n"
                                "  povgloss_see()\n"
                                "  #declare povgloss_own = <povgloss_default_state.x, povgloss_default_state.y,\n"
                                "    povgloss_default_state.z, povgloss_t>;\n"
                                "  povgloss_count(<-1, 0, -1, povgloss_t>)\n"
                                "  povgloss_set_default(povgloss_t) %s povgloss_set_default(0)\n#end\n",
-                               mirror ? thinned : keep,
-                               part->copy == SCENE_COPY_CODED ? coded : mirror ? thinned : keep);
+                               mirror ? "#if (povgloss_texture.x < povgloss_maps_from)" : "", mirror ? thinned : keep,
+                               mirror ? "#end" : "", part->copy == SCENE_COPY_CODED ? coded : mirror ? thinned : keep);
     free(thinned);
     return result;
 }
@@ -197,8 +255,8 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
  * can't be blurred. POV-Ray's specular highlight is a power 1/roughness of the cosine about the half vector, whose angle is
  * half of that from the mirror direction: an exponent of 1/(4 roughness) there. phong_size is an exponent about the mirror
  * direction.
- * povgloss_counts is how many glossy textures came by (x), transparent ones (y), and objects by names of which neither is
- * known (z). */
+ * povgloss_counts is how many glossy textures came by (x), transparent ones (y), objects by names of which neither is known
+ * (z), and transparent mirrors without gloss (t). */
 static enum result add_state_macros(const struct scene *scene, struct buffer *text, struct error *err)
 {
     const struct gloss_choice *choice = scene->choice;
@@ -210,10 +268,12 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
         "#declare povgloss_default_state = povgloss_none; #declare povgloss_value = 0;\n"
         "#ifdef (povgloss_plain) #undef povgloss_plain #end\n"
-        "#declare povgloss_counts = <0, 0, 0>;\n"
+        "#declare povgloss_counts = <0, 0, 0, 0>;\n"
         "#macro povgloss_add(povgloss_c) #declare povgloss_counts = povgloss_counts + povgloss_c; #end\n"
         "#macro povgloss_count(povgloss_s)\n"
-        "  povgloss_add(<(povgloss_exponent(povgloss_s) >= 0), povgloss_clear(povgloss_s.t), 0>)\n"
+        "  #local povgloss_c = povgloss_clear(povgloss_s.t);\n"
+        "  #local povgloss_g = (povgloss_exponent(povgloss_s) >= 0);\n"
+        "  povgloss_add(<povgloss_g, povgloss_c, 0, (povgloss_c & !povgloss_g & povgloss_s.y > 0)>)\n"
         "#end\n"
         "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_default_state; #end\n"
         "#macro povgloss_upper_layer()\n"
@@ -232,6 +292,7 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#end\n"
         "#macro povgloss_begin(povgloss_of)\n"
         "  #declare povgloss_state = povgloss_of; #declare povgloss_reflects = 0; #declare povgloss_phong = -1;\n"
+        "  #declare povgloss_begun = povgloss_of.x;\n"
         "#end\n"
         "#macro povgloss_of_finish(povgloss_s)\n"
         "  povgloss_set(povgloss_s.x, povgloss_s.y, povgloss_s.z)\n"
@@ -266,9 +327,51 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
                          choice->automatic ? "(povgloss_s.z >= 0 ? povgloss_s.z : povgloss_all)" : "povgloss_all");
 }
 
-static bool is_base(const struct pass *pass)
+static bool is_base(const struct scene_part *part)
 {
-    return pass == &pass_table[PASS_BASE];
+    return part->copy == SCENE_COPY_BASE || part->copy == SCENE_COPY_BASE_FIRST || part->copy == SCENE_COPY_BASE_SECOND;
+}
+
+/* A finish with a Gloss_Map has an exponent from povgloss_painted on in its state. Where exponents are drawn each map becomes
+ * a pigment of codes, which takes the place of the finish's own from there on where the texture transforms it, and the
+ * exponent is then (2 + its number in povgloss_maps) povgloss_painted. */
+static enum result add_map_macros(const struct pass *pass, struct buffer *text, struct error *err)
+{
+    return buffer_printf(
+        text, err,
+        "#declare povgloss_maps_from = %s;\n"
+        "#declare povgloss_maps = array[1]; #declare povgloss_map_count = 0;\n"
+        "#macro povgloss_take_map()\n"
+        "  #if (povgloss_phong = povgloss_maps_from)\n"
+        "    #if (povgloss_map_count = dimension_size(povgloss_maps, 1))\n"
+        "      #local povgloss_more = array[2*povgloss_map_count];\n"
+        "      #local povgloss_i = 0;\n"
+        "      #while (povgloss_i < povgloss_map_count)\n"
+        "        #local povgloss_more[povgloss_i] = povgloss_maps[povgloss_i];\n"
+        "        #local povgloss_i = povgloss_i + 1;\n"
+        "      #end\n"
+        "      #declare povgloss_maps = povgloss_more;\n"
+        "    #end\n"
+        "    #declare povgloss_maps[povgloss_map_count] = pigment {\n"
+        "      pigment_pattern { povgloss_map }\n"
+        "      color_map {\n"
+        "        [0 rgb <povgloss_exponent_code(povgloss_map_min), 0, 1>]\n"
+        "        [1 rgb <povgloss_exponent_code(povgloss_map_max), 0, 1>]\n"
+        "      }\n"
+        "    }\n"
+        "    #declare povgloss_phong = povgloss_maps_from*(2 + povgloss_map_count);\n"
+        "    #declare povgloss_map_count = povgloss_map_count + 1;\n"
+        "  #end\n"
+        "#end\n"
+        "#macro povgloss_paint()\n"
+        "  #if (povgloss_value = 0 & povgloss_last.x >= povgloss_maps_from & povgloss_last.x != povgloss_begun)\n"
+        "    pigment { povgloss_maps[floor(povgloss_last.x/povgloss_maps_from + 0.5) - 2] }\n"
+        "  #end\n"
+        "#end\n"
+        "#macro povgloss_repaint()\n"
+        "  #if (povgloss_last.x >= povgloss_maps_from) finish { } #else pigment { povgloss_pigment } #end\n"
+        "#end\n",
+        pass->mirror_colour == mirror_exponent ? "2e30" : "1e60");
 }
 
 /* What a copy with marked finishes refers to besides. */
@@ -280,10 +383,15 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
         "#macro povgloss_dark() ambient 0 emission 0 diffuse 0 specular 0 phong 0 irid { 0 } #end\n"
         "#declare povgloss_pigment = pigment { rgb 0 };\n"
         "#macro povgloss_hide(povgloss_s)\n"
-        "  #if (povgloss_exponent(povgloss_s) >= 0 & (povgloss_mirrors | povgloss_clear(povgloss_s.t))) pigment { rgb 0 } "
+        "  #if (povgloss_exponent(povgloss_s) >= 0 & (povgloss_mirrors | povgloss_clear(povgloss_s.t))\n"
+        "       & povgloss_s.x < povgloss_maps_from) pigment { rgb 0 } #end\n"
         "#end\n"
+        "#macro povgloss_exponent_code(povgloss_p)\n"
+        "  ((20 + log(min(max(povgloss_p, pow(2, -20)), 1e30))/log(2))/128)\n"
         "#end\n",
         err);
+    if (!result)
+        result = add_map_macros(pass, text, err);
     if (!result)
         result = buffer_printf(text, err, "#declare povgloss_mirrors = %d;\n", pass->mirror_colour != NULL);
     if (!result && pass->mirror_colour)
@@ -292,12 +400,15 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
         result = buffer_printf(text, err,
                                "#macro povgloss_finish(povgloss_named)\n"
                                "  #if (povgloss_given >= 0) #declare povgloss_phong = povgloss_given; #end\n"
+                               "  povgloss_take_map()\n"
                                "  #if (povgloss_phong >= 0) povgloss_set(povgloss_phong, povgloss_state.y, povgloss_state.z) "
                                "#end\n"
                                "  #declare povgloss_last = povgloss_state; povgloss_count(povgloss_state)\n"
                                "  #declare povgloss_phong = (povgloss_named ? povgloss_state.x : "
                                "povgloss_exponent(povgloss_state));\n"
-                               "  %s\n#end\n"
+                               "  %s\n"
+                               "  #if (povgloss_phong >= povgloss_maps_from) emission 1 crand 0 #end\n"
+                               "#end\n"
                                "#macro povgloss_end() povgloss_finish(0) #end\n"
                                "#macro povgloss_end_of_name() povgloss_finish(1) #end\n"
                                "#macro povgloss_enter_default()\n"
@@ -305,6 +416,9 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                "  #declare povgloss_last = povgloss_default_state;\n"
                                "#end\n"
                                "#macro povgloss_leave_default()\n"
+                               "  #if (povgloss_last.x >= 2e30)\n"
+                               "    #error \"Gloss_Map() can't stand in a #default: write it into the finishes\\n\"\n"
+                               "  #end\n"
                                "  #declare povgloss_default_state = <povgloss_last.x, povgloss_last.y, povgloss_last.z, 0>;\n"
                                "  #declare povgloss_plain = finish { };\n"
                                "  #declare povgloss_shiny = finish { povgloss_begin(povgloss_last) povgloss_end() };\n"
@@ -317,7 +431,7 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
         result = buffer_printf(text, err,
                                "#declare povgloss_object = povgloss_nothing()\n"
                                "#declare povgloss_depth = 0;\n"
-                               "#declare povgloss_default_counts = <0, 0, 0>;\n"
+                               "#declare povgloss_default_counts = <0, 0, 0, 0>;\n"
                                "#macro povgloss_counted_default()\n"
                                "  #declare povgloss_default_counts =\n"
                                "    povgloss_default_counts + povgloss_counts - povgloss_before_default;\n"
@@ -336,24 +450,30 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                "#end\n"
                                "#macro povgloss_place(povgloss_f, povgloss_l)\n"
                                "  povgloss_leave()\n"
+                               "  povgloss_note_object(povgloss_f, povgloss_l)\n"
                                "  #if (povgloss_depth = 0 & povgloss_is_clear() & !povgloss_is_glossy()) %s\n"
-                               "  #else object { povgloss_object } povgloss_note_mixed(povgloss_f, povgloss_l) #end\n"
+                               "  #else object { povgloss_object } #end\n"
                                "#end\n"
-                               "#macro povgloss_note_mixed(povgloss_f, povgloss_l)\n"
+                               "#macro povgloss_note_object(povgloss_f, povgloss_l)\n"
                                "  #if (povgloss_depth = 0 & povgloss_is_glossy() & povgloss_counts.y > povgloss_before.y)\n"
-                               "    #ifndef (povgloss_noted)\n"
-                               "      #declare povgloss_noted = 1;\n"
-                               "      #fopen povgloss_mixed \"" PASS_MIXED_FILE "\" write\n"
-                               "      #write (povgloss_mixed, str(povgloss_f, 0, 0), \" \", str(povgloss_l, 0, 0))\n"
-                               "      #fclose povgloss_mixed\n"
-                               "    #end\n"
+                               "    povgloss_note(\"" PASS_MIXED_FILE "\", povgloss_f, povgloss_l)\n"
+                               "  #end\n"
+                               "  #if (povgloss_depth = 0 & povgloss_counts.t > povgloss_before.t)\n"
+                               "    povgloss_note(\"" PASS_GLASS_FILE "\", povgloss_f, povgloss_l)\n"
+                               "  #end\n"
+                               "#end\n"
+                               "#macro povgloss_note(povgloss_n, povgloss_f, povgloss_l)\n"
+                               "  #if (!file_exists(povgloss_n))\n"
+                               "    #fopen povgloss_file povgloss_n write\n"
+                               "    #write (povgloss_file, str(povgloss_f, 0, 0), \" \", str(povgloss_l, 0, 0))\n"
+                               "    #fclose povgloss_file\n"
                                "  #end\n"
                                "#end\n",
                                part->placed);
     if (!result && part->placed)
         result = buffer_printf(text, err,
                                "#macro povgloss_place_part(povgloss_f, povgloss_l)\n"
-                               "  povgloss_leave() povgloss_note_mixed(povgloss_f, povgloss_l)\n"
+                               "  povgloss_leave() povgloss_note_object(povgloss_f, povgloss_l)\n"
                                "  #if (povgloss_depth > 0) object { povgloss_object }\n"
                                "  #else #if (povgloss_is_glossy()) object { povgloss_object %s }\n"
                                "  #else %s #end #end\n"
@@ -364,7 +484,7 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                part->placed_once ? "object { povgloss_object }" : "",
                                part->placed_once ? "#if (povgloss_depth = 0) povgloss_modifiers() } #end" : "",
                                part->placed_once ? "#if (povgloss_depth = 0) union { povgloss_nothing() #end" : "");
-    if (!result && !is_base(pass))
+    if (!result && !is_base(part))
         result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { povgloss_dark() } }\n", err);
     return result;
 }
@@ -399,9 +519,11 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
         free(name);
         return result;
     }
+    /* Objects of a union that have no interior of their own share one, which is as hollow as the last of them: where it is,
+     * the haze fills their hollow ones. */
     if (!result)
-        result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n", part->modifiers,
-                               scene->atmosphere ? " hollow" : "");
+        result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n",
+                               scene->atmosphere ? "povgloss_nothing() " : "", part->modifiers);
     if (!result && part->coded)
         result = add_coding_texture(pass, text, err);
     if (!result)
@@ -442,22 +564,31 @@ static bool scene_mirrors_gloss(const struct scene *scene)
     return scene->plain_mirrors && (!scene->choice->all || may_hold_clear(scene));
 }
 
-/* The base pass needs its second copy only there, and where the light counts that a glossy surface throws onto others. Light
- * under a surface is lost where a second copy of the surface lies on it. */
-static bool has_second_part(const struct scene *scene, enum pass_id id)
+bool pass_weights_specular(const struct scene *scene)
 {
-    return pass_table[id].second.copy >= 0 &&
-           (id != PASS_BASE ||
-            (scene->glossy && !scene->limits[SCENE_LIMIT_SUBSURFACE].line &&
-             (scene_mirrors_gloss(scene) || scene->radiosity)));
+    return scene->focal_blur || scene->mixes;
 }
 
-static struct scene_part first_part(const struct scene *scene, enum pass_id id)
+struct pass pass_of(const struct scene *scene, enum pass_id id)
 {
-    struct scene_part part = pass_table[id].first;
-    if (id == PASS_BASE && !has_second_part(scene, id))
-        part = (struct scene_part){.copy = SCENE_COPY_BASE, .finish_end = end_base};
-    return part;
+    struct pass pass = pass_table[id];
+    /* The second copy is needed only where a glossy surface is seen in a mirror, and where the light counts that it throws
+     * onto others. Light under a surface is lost where a second copy of the surface lies on it. */
+    bool doubled = scene->glossy && !scene->limits[SCENE_LIMIT_SUBSURFACE].line &&
+                   (scene_mirrors_gloss(scene) || scene->radiosity);
+    if (id == PASS_BASE && !doubled) {
+        pass.first = (struct scene_part){.copy = SCENE_COPY_BASE, .finish_end = end_base};
+        pass.second.copy = -1;
+    }
+    if (pass_weights_specular(scene) && (id == PASS_SPECULAR || id == PASS_HAZE)) {
+        pass.mirror_colour = NULL;
+        pass.second.copy = SCENE_COPY_REFLECTION;
+        pass.second.finish_end = id == PASS_HAZE ? end_haze_of_reflection : end_reflection;
+    }
+    /* An aperture sees glossy surfaces beyond the silhouettes of the exponent pass, which has none. */
+    if (scene->focal_blur && !pass.codes)
+        pass.glossy_part = false;
+    return pass;
 }
 
 enum result pass_discovery_text(const struct scene *scene, struct buffer *text, struct error *err)
@@ -494,40 +625,44 @@ bool pass_is_verbatim(const struct scene *scene, enum pass_id id)
 
 enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct buffer *text, struct error *err)
 {
-    const struct pass *pass = &pass_table[id];
-    struct scene_part first = first_part(scene, id);
+    const struct pass pass = pass_of(scene, id);
     enum result result = RESULT_OK;
     if (pass_is_verbatim(scene, id))
         return buffer_add(text, scene->files[0].source.data, scene->files[0].source.size, err);
     if (scene->version > 0)
         result = buffer_printf(text, err, "#version %.9g;\n", scene->version);
-    if (!result && pass->technical)
+    if (!result && pass.technical)
         result = buffer_add_text(text, "global_settings { assumed_gamma 1.0 }\n", err);
     if (!result)
         result = buffer_add_text(
-            text, "#macro povgloss_nothing() sphere { 0, 1e-6 no_image no_reflection no_shadow no_radiosity } #end\n", err);
+            text, "#macro povgloss_nothing() sphere { 0, 1e-6 hollow no_image no_reflection no_shadow no_radiosity } #end\n", err);
     if (!result)
         result = buffer_add_text(text, "#declare povgloss_default = texture { pigment { rgb 0 } };\n", err);
-    /* Codes must not be averaged: focal blur is for the passes that are drawn as the user asks. */
+    /* Codes must not be averaged by focal blur. */
     if (!result)
-        result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass->full_size ? "" : "aperture 0");
+        result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass.codes ? "aperture 0" : "");
     if (!result)
         result = add_photon_macro(id, text, err);
     if (!result)
         result = scene_save_names(scene, text, err);
     if (!result)
-        result = add_part(scene, pass, &first, text, err);
-    if (!result && (has_second_part(scene, id) || id == PASS_PROBE))
+        result = add_part(scene, &pass, &pass.first, text, err);
+    if (!result && (pass.second.copy >= 0 || id == PASS_PROBE))
         result = add_separation(scene, text, err);
-    if (!result && has_second_part(scene, id))
-        result = add_part(scene, pass, &pass->second, text, err);
-    if (!result && pass->coded_sky)
-        result = add_coded_sky(pass, text, err);
-    if (!result && pass->trailer)
-        result = buffer_add_text(text, pass->trailer, err);
-    if (!result && pass->technical)
+    if (!result && pass.second.copy >= 0)
+        result = add_part(scene, &pass, &pass.second, text, err);
+    if (!result && pass.coded_sky)
+        result = add_coded_sky(&pass, text, err);
+    if (!result && pass.trailer)
+        result = buffer_add_text(text, pass.trailer, err);
+    if (!result && pass.technical)
         result = buffer_add_text(text, "global_settings { max_trace_level 20 adc_bailout 1/255 }\n", err);
     return result;
+}
+
+bool pass_is_place(enum pass_id id)
+{
+    return id == PASS_PLACE || id == PASS_PLACE_LOW;
 }
 
 bool pass_is_mirror(enum pass_id id)
@@ -537,20 +672,29 @@ bool pass_is_mirror(enum pass_id id)
 
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
-    if (id == PASS_PROBE || pass_is_mirror(id))
+    if (id == PASS_PROBE || pass_is_mirror(id) || pass_is_place(id))
         return false;
-    if (id == PASS_EXPONENT && scene->exponent >= 0 && !scene->mixes && !scene->refracts)
+    if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;
-    if (id == PASS_HAZE && !scene->atmosphere)
+    /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye, too. */
+    if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line && !pass_weights_specular(scene))
+        return false;
+    if (id == PASS_REFLECTIVITY && !pass_weights_specular(scene))
         return false;
     return id == PASS_BASE || id == PASS_OWN || (scene->glossy && (id != PASS_PHOTONS || scene->photons));
+}
+
+bool pass_exponents_differ(const struct scene *scene)
+{
+    return scene->exponent < 0 || scene->mixes || scene->refracts;
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])
 {
     if (pass_is_verbatim(scene, id))
         return;
-    needed[first_part(scene, id).copy] = true;
-    if (has_second_part(scene, id))
-        needed[pass_table[id].second.copy] = true;
+    const struct pass pass = pass_of(scene, id);
+    needed[pass.first.copy] = true;
+    if (pass.second.copy >= 0)
+        needed[pass.second.copy] = true;
 }

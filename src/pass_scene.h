@@ -15,12 +15,16 @@ enum pass_id {
     PASS_SPECULAR,
     PASS_HAZE,
     PASS_REFLECTANCE,
+    PASS_REFLECTIVITY, /* the same by one ray a pixel: what L0 was multiplied by in the specular pass */
     PASS_POSITION,
     PASS_POSITION_LOW,
     PASS_ENDPOINT,
     PASS_ENDPOINT_LOW,
     PASS_DIRECTION,
+    PASS_PLACE, /* positions, few, that tell the eye's before the passes with a margin are rendered */
+    PASS_PLACE_LOW,
     PASS_EXPONENT,
+    PASS_EXPONENT_MEAN,
     PASS_OWN, /* POV-Ray's own picture of the scene as it is, small and without antialiasing */
     PASS_MIRROR, /* the mirrored rays' directions, for probes: an endpoint may lie behind glass that bends the ray */
     PASS_MIRROR_LOW,
@@ -30,9 +34,12 @@ enum pass_id {
 
 #define PASS_PHOTONS_FILE "photons.ph"
 /* Left by the base pass in its folder: index of the file and line of the first object that holds something transparent and
- * something glossy. */
-#define PASS_MIXED_FILE "mixed.txt"
+ * something glossy, and of the first that holds a transparent mirror without gloss. */
+#define PASS_MIXED_FILE "povgloss_mixed.txt"
+#define PASS_GLASS_FILE "povgloss_glass.txt"
 #define PASS_PROBE_VIEW "view.inc"
+/* Beside the copies: nothing, or the camera of the picture with its margin. */
+#define PASS_MARGIN_CAMERA "povgloss-margin.inc"
 
 /* A copy of the scene in a union. */
 struct scene_part {
@@ -48,6 +55,9 @@ struct pass {
     const char *name;
     bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
+    bool margin;    /* rendered with the margin, by the camera of PASS_MARGIN_CAMERA */
+    bool smooth;    /* antialiased, whatever the user asks */
+    bool glossy_part; /* of use where something glossy is, as the exponent pass knows; else the whole picture is rendered */
     bool technical; /* colours are numbers: linear, without media or radiosity */
     enum position_digits digits;
     const char *mirror_colour; /* reflectivity of its glossy finishes */
@@ -59,14 +69,27 @@ struct pass {
 
 extern const struct pass pass_table[PASS_COUNT];
 
+/* The pass as this scene takes it. */
+struct pass pass_of(const struct scene *scene, enum pass_id id);
+
+/* Whether the specular pass holds L0 times the reflectivity: a pixel of focal blur or of a mixed texture is the sum of what
+ * several glossy surfaces reflect. */
+bool pass_weights_specular(const struct scene *scene);
+
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
- * where it has one; exponents where there are several, where a texture may mix a glossy surface with another one, or where
- * a total reflection may be taken for one. */
+ * where it has one, or media, or a weighted specular pass, which then has a reflectivity, too; antialiased exponents where one
+ * is painted. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
+
+/* Whether the exponent pass says more than where something is glossy: there are several exponents, a texture may mix a
+ * glossy surface with another one, or a total reflection may be taken for one. */
+bool pass_exponents_differ(const struct scene *scene);
 
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are
  * loaded as in the other passes. */
 bool pass_is_verbatim(const struct scene *scene, enum pass_id id);
+/* Whether the pass is one of those that find the eye for a margin. */
+bool pass_is_place(enum pass_id id);
 /* Whether the pass is one of the mirrored rays' directions, which are rendered for those who ask. */
 bool pass_is_mirror(enum pass_id id);
 

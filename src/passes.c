@@ -6,20 +6,25 @@
 
 #include "compose.h"
 #include "input_file.h"
+#include "own_files.h"
 #include "pass_images.h"
 #include "picture_check.h"
 #include "reads.h"
+#include "sandbox.h"
 #include "scene_discover.h"
 #include "work_folder.h"
 
 #include <assert.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #define EMPTY_INI "empty.ini"
+
+enum { POVRAY_BLOCK = 32 }; /* pixels a side of what POV-Ray renders at a time */
 
 struct passes {
     const struct passes_options *options;
@@ -28,6 +33,7 @@ struct passes {
     int frame;                        /* for which the scene was read */
     struct text_list directories;     /* where includes are looked for, absolute; they have links lib0, lib1, ... */
     struct text_list directory_names; /* the same as the user wrote them */
+    struct text_list command;         /* the sandbox, if there is one, and the program */
     char **environment;               /* of POV-Ray: the strings are those of environ, a constant and `preload` */
     char *preload;
     struct reads reads;
@@ -35,6 +41,11 @@ struct passes {
     char version[POVRAY_VERSION_SIZE]; /* of a POV-Ray that isn't 3.7; told is whether the user knows */
     bool version_told;
     bool has_folder[PASS_COUNT];
+    bool margin;          /* is wanted; the camera of the frame that is rendered, */
+    bool has_camera;      /* where it is known, */
+    struct camera camera;
+    int width, height;      /* the picture, */
+    int margin_x, margin_y; /* and the pixels on each side of it */
     struct povray_job jobs[PASS_COUNT];
     enum pass_id ids[PASS_COUNT];
     int job_count;
@@ -82,6 +93,8 @@ static enum result write_pass(struct passes *passes, enum pass_id id, struct err
     passes->has_folder[id] = true;
     if (!result)
         result = pass_scene_text(&passes->scene, id, &text, err);
+    if (!result && passes->margin && pass_table[id].margin)
+        result = buffer_add_text(&text, "#include \"" PASS_MARGIN_CAMERA "\"\n", err);
     if (!result)
         result = write_wrapper(passes, pass_table[id].name, &text, err);
     buffer_free(&text);
@@ -94,13 +107,44 @@ static bool is_checked(const struct passes *passes)
     return passes->options->check && !passes->options->switches->partial;
 }
 
+/* A camera made of a mesh has a face for each pixel; image_width is for the proportion, or for something drawn by pixels. */
+static bool file_depends_on_size(const struct scene_file *file)
+{
+    const struct token *tokens = file->list.tokens;
+    for (int i = 0; i < file->list.count; i++) {
+        if (token_is(&file->source, &tokens[i], TOKEN_WORD, "mesh_camera"))
+            return true;
+        bool width = token_is(&file->source, &tokens[i], TOKEN_WORD, "image_width");
+        if (!width && !token_is(&file->source, &tokens[i], TOKEN_WORD, "image_height"))
+            continue;
+        const char *other = width ? "image_height" : "image_width";
+        if (i + 2 >= file->list.count || !token_is(&file->source, &tokens[i + 1], TOKEN_MARK, "/") ||
+            !token_is(&file->source, &tokens[i + 2], TOKEN_WORD, other))
+            return true;
+        i += 2;
+    }
+    return false;
+}
+
+static bool depends_on_size(const struct scene *scene)
+{
+    bool depends = false;
+    for (int i = 0; i < scene->file_count; i++)
+        depends |= file_depends_on_size(&scene->files[i]);
+    return depends;
+}
+
 static enum result write_scenes(struct passes *passes, struct error *err)
 {
     bool needed[SCENE_COPY_COUNT] = {false};
     enum result result = RESULT_OK;
+    const struct passes_options *options = passes->options;
+    passes->margin = (options->margin > 0 || options->margin_px > 0) && passes->scene.glossy &&
+                     !options->switches->partial && !depends_on_size(&passes->scene) && !passes->scene.focal_blur;
     passes->job_count = 0;
     for (int id = 0; !result && id < PASS_COUNT; id++) {
-        bool asked = passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id);
+        bool asked = (passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id)) ||
+                     (passes->margin && pass_is_place((enum pass_id)id));
         bool unasked = id == PASS_OWN && !is_checked(passes);
         if (unasked || (!asked && !pass_needed(&passes->scene, (enum pass_id)id)))
             continue;
@@ -129,8 +173,21 @@ static enum result add_directory(struct passes *passes, const char *path, struct
     return result;
 }
 
-/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; the scene's own folder comes last. They
- * are reached through links, since POV-Ray's command line can't take every path. */
+/* The folder of povgloss.inc, for a scene that has no copy of it. */
+static enum result add_own_directory(struct passes *passes, struct error *err)
+{
+    char *folder;
+    struct error ignored;
+    enum result result = RESULT_OK;
+    if (!own_file("share/povgloss/include", &folder, &ignored)) {
+        result = add_directory(passes, folder, err);
+        free(folder);
+    }
+    return result;
+}
+
+/* POV-Ray looks in its folder, in those of its .ini file and in those of +L; then come the scene's own folder and ours.
+ * They are reached through links, since POV-Ray's command line can't take every path. */
 static enum result find_directories(struct passes *passes, struct error *err)
 {
     const struct passes_options *options = passes->options;
@@ -146,7 +203,7 @@ static enum result find_directories(struct passes *passes, struct error *err)
     if (!result)
         result = add_directory(passes, slash ? scene_folder : ".", err);
     free(scene_folder);
-    return result;
+    return result ? result : add_own_directory(passes, err);
 }
 
 static enum result link_directories(const struct passes *passes, struct error *err)
@@ -187,19 +244,37 @@ enum result passes_load_scene(const struct passes_options *options, struct scene
 
 /* ---- running ---- */
 
+/* POV-Ray's sandbox and program; it runs in a folder of its own. */
+static enum result find_command(struct passes *passes, struct error *err)
+{
+    const char *name = passes->options->povray;
+    char *program = NULL, *object = NULL;
+    enum result result = RESULT_OK;
+    if (strchr(name, '/') || passes->options->sandbox)
+        result = program_find(name, &program, err);
+    if (!result && passes->options->sandbox && !program)
+        result = povray_missing(name, err);
+    if (!result && passes->options->sandbox && passes->options->reads)
+        result = text_printf(&object, err, "%s/reads.so", passes->folder.path);
+    if (!result && passes->options->sandbox)
+        result = sandbox_begin(passes->folder.path, &passes->directories, (const char *const[]){program, object}, 2,
+                               &passes->command, err);
+    if (!result)
+        result = text_list_add(&passes->command, err, "%s", program ? program : name);
+    free(program);
+    free(object);
+    return result;
+}
+
 /* The program, the user's switches, where files are looked for, the scene and its frame. */
 static enum result scene_arguments(const struct passes *passes, int frame, struct text_list *arguments,
                                    struct error *err)
 {
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
-    /* POV-Ray runs in a folder of its own. */
-    errno = 0;
-    char *program = strchr(options->povray, '/') ? realpath(options->povray, NULL) : NULL;
-    if (!program && errno == ENOMEM)
-        return error_memory(err, 0);
-    enum result result = text_list_add(arguments, err, "%s", program ? program : options->povray);
-    free(program);
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < passes->command.count; i++)
+        result = text_list_add(arguments, err, "%s", passes->command.texts[i]);
     for (int i = 0; !result && i < switches->passed.count; i++)
         result = text_list_add(arguments, err, "%s", switches->passed.texts[i]);
     if (!result)
@@ -216,39 +291,40 @@ static enum result scene_arguments(const struct passes *passes, int frame, struc
     return result;
 }
 
-/* A camera made of a mesh has a face for each pixel; image_width is for the proportion, or for something drawn by pixels. */
-static bool file_depends_on_size(const struct scene_file *file)
+static enum result add_size(struct text_list *arguments, int width, int height, struct error *err)
 {
-    const struct token *tokens = file->list.tokens;
-    for (int i = 0; i < file->list.count; i++) {
-        if (token_is(&file->source, &tokens[i], TOKEN_WORD, "mesh_camera"))
-            return true;
-        bool width = token_is(&file->source, &tokens[i], TOKEN_WORD, "image_width");
-        if (!width && !token_is(&file->source, &tokens[i], TOKEN_WORD, "image_height"))
-            continue;
-        const char *other = width ? "image_height" : "image_width";
-        if (i + 2 >= file->list.count || !token_is(&file->source, &tokens[i + 1], TOKEN_MARK, "/") ||
-            !token_is(&file->source, &tokens[i + 2], TOKEN_WORD, other))
-            return true;
-        i += 2;
-    }
-    return false;
+    enum result result = text_list_add(arguments, err, "+W%d", width);
+    return result ? result : text_list_add(arguments, err, "+H%d", height);
+}
+
+static void picture_size(const struct passes *passes, int *width, int *height)
+{
+    enum { POVRAY_WIDTH = 160, POVRAY_HEIGHT = 120 }; /* where nothing is said */
+    const struct povray_switches *switches = passes->options->switches;
+    *width = switches->width ? switches->width : POVRAY_WIDTH;
+    *height = switches->height ? switches->height : POVRAY_HEIGHT;
+}
+
+/* A few thousand positions tell where the eye is; the proportion, which a camera may depend on, is that of the picture. */
+static enum result add_place_size(const struct passes *passes, struct text_list *arguments, struct error *err)
+{
+    enum { LEAST_SIDE = 32 };
+    int width, height, divisor = 1;
+    picture_size(passes, &width, &height);
+    for (int i = 2; i * LEAST_SIDE <= width && i * LEAST_SIDE <= height; i++)
+        if (width % i == 0 && height % i == 0)
+            divisor = i;
+    return add_size(arguments, width / divisor, height / divisor, err);
 }
 
 /* POV-Ray's own picture is small, unless the scene isn't the same in another size. */
 static enum result add_own_size(const struct passes *passes, struct text_list *arguments, struct error *err)
 {
-    enum { POVRAY_WIDTH = 160, POVRAY_HEIGHT = 120 }; /* where nothing is said */
-    const struct povray_switches *switches = passes->options->switches;
-    int width = switches->width ? switches->width : POVRAY_WIDTH;
-    int height = switches->height ? switches->height : POVRAY_HEIGHT;
-    bool depends = false;
-    for (int i = 0; i < passes->scene.file_count; i++)
-        depends |= file_depends_on_size(&passes->scene.files[i]);
-    if (!depends)
+    int width, height;
+    picture_size(passes, &width, &height);
+    if (!depends_on_size(&passes->scene))
         picture_check_size(width, height, &width, &height);
-    enum result result = text_list_add(arguments, err, "+W%d", width);
-    return result ? result : text_list_add(arguments, err, "+H%d", height);
+    return add_size(arguments, width, height, err);
 }
 
 /* The user's switches first, then those on which the pass depends: POV-Ray takes the last one. */
@@ -257,30 +333,32 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
 {
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
-    const struct pass *pass = &pass_table[id];
+    const struct pass pass = pass_of(&passes->scene, id);
     static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
     enum result result = scene_arguments(passes, frame, arguments, err);
-    const char *const *format = pass->codes ? codes : radiance;
+    const char *const *format = pass.codes ? codes : radiance;
     for (int i = 0; !result && format[i]; i++)
         result = text_list_add(arguments, err, "%s", format[i]);
-    if (!result && (!pass->full_size || id == PASS_OWN))
+    if (!result && (!pass.full_size || id == PASS_OWN))
         result = text_list_add(arguments, err, "-A");
     if (!result && id == PASS_OWN)
         result = add_own_size(passes, arguments, err);
+    if (!result && pass_is_place(id))
+        result = add_place_size(passes, arguments, err);
     /* Reflectivities are small, and their edges show as much as those of the picture. */
     if (!result && id == PASS_REFLECTANCE && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
-    if (!result && pass->technical)
+    static const char *const smooth[] = {"+A0.0", "+AM1", "+R3", "-J", "Antialias_Gamma=1.0", NULL};
+    for (int i = 0; !result && pass.smooth && smooth[i]; i++)
+        result = text_list_add(arguments, err, "%s", smooth[i]);
+    if (!result && pass.technical)
         result = text_list_add(arguments, err, "+Q8");
     static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
     for (int i = 0; !result && id == PASS_PHOTONS && one_pixel[i]; i++)
         result = text_list_add(arguments, err, "%s", one_pixel[i]);
-    if (!result && options->subsample > 1 && !pass->full_size) {
-        result = text_list_add(arguments, err, "+W%d", switches->width / options->subsample);
-        if (!result)
-            result = text_list_add(arguments, err, "+H%d", switches->height / options->subsample);
-    }
+    if (!result && options->subsample > 1 && !pass.full_size)
+        result = add_size(arguments, switches->width / options->subsample, switches->height / options->subsample, err);
     return result;
 }
 
@@ -393,6 +471,14 @@ static void no_progress(void *context, double done)
     (void)done;
 }
 
+static void add_timings(const struct passes *passes, const struct povray_job *jobs, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (jobs[i].finished)
+            timings_add_povray(passes->options->timings, jobs[i].name, jobs[i].start_s, jobs[i].wall_s,
+                               jobs[i].child.cpu_s);
+}
+
 /* POV-Ray parses the scene and is stopped by the wrapper before it draws: that is a success if the log has its last
  * line. */
 static enum result run_discovery(struct passes *passes, const char *name, const char *folder, struct error *err)
@@ -414,6 +500,7 @@ static enum result run_discovery(struct passes *passes, const char *name, const 
         result = RESULT_OK;
     else if (failed >= 0)
         result = report_failure(passes, &job, err);
+    add_timings(passes, &job, 1);
     input_file_free(&log);
     povray_jobs_free(&job, 1);
     text_list_free(&arguments);
@@ -460,78 +547,237 @@ static enum result remove_left(const struct passes *passes, enum pass_id id, con
     return result;
 }
 
-/* Adds to *note where glass and something glossy are one object. */
-static enum result note_mixed(const struct passes *passes, struct error *note, struct error *err)
+/* What the base pass may have noted of an object. */
+static const struct {
+    const char *file, *text;
+} object_notes[] = {
+    {PASS_MIXED_FILE, "this object holds something transparent and something glossy: reflections inside the transparent part "
+                      "are left out; make them objects of their own"},
+    {PASS_GLASS_FILE, "a glossy surface reflects nothing where it is seen by a reflection in this object and then through "
+                      "something transparent"},
+};
+enum { OBJECT_NOTES = sizeof object_notes / sizeof *object_notes };
+
+/* Adds those to *note. */
+static enum result note_objects(const struct passes *passes, struct error *note, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && i < OBJECT_NOTES; i++) {
+        char *path;
+        result = text_printf(&path, err, "%s/%s/%s", passes->folder.path, pass_table[PASS_BASE].name, object_notes[i].file);
+        FILE *stream = result ? NULL : fopen(path, "r");
+        int file, line;
+        if (stream && fscanf(stream, "%d %d", &file, &line) == 2 && file >= 0 && file < passes->scene.file_count) {
+            size_t length = strlen(note->text);
+            snprintf(note->text + length, sizeof note->text - length, "%s%s:%d: %s", length ? "; " : "",
+                     passes->scene.files[file].path, line, object_notes[i].text);
+        }
+        if (stream)
+            fclose(stream);
+        free(path);
+    }
+    return result;
+}
+
+static struct pass_images images_of(const struct passes *passes, const char *number)
+{
+    return (struct pass_images){.folder = passes->folder.path,
+                                .number = number,
+                                .name = passes->options->scene,
+                                .scene = &passes->scene,
+                                .subsample = passes->options->subsample,
+                                .rays = passes->options->rays,
+                                .margin_x = passes->margin_x,
+                                .margin_y = passes->margin_y,
+                                .camera = passes->has_camera ? &passes->camera : NULL};
+}
+
+/* Rows and columns to render; `left` and `top` count from 0. */
+static enum result add_window(struct text_list *arguments, int left, int top, int width, int height, struct error *err)
+{
+    enum result result = text_list_add(arguments, err, "+SC%d", left + 1);
+    if (!result)
+        result = text_list_add(arguments, err, "+EC%d", left + width);
+    if (!result)
+        result = text_list_add(arguments, err, "+SR%d", top + 1);
+    return result ? result : text_list_add(arguments, err, "+ER%d", top + height);
+}
+
+/* The jobs of a frame while they run. */
+struct run {
+    struct passes *passes;
+    int frame;
+    struct text_list arguments[PASS_COUNT];
+    char *folders[PASS_COUNT];
+    bool camera_sought;     /* it is known, or can't be */
+    bool narrows, narrowed; /* to the glossy window: whether passes are, and whether they have been */
+};
+
+static struct povray_job *job_of(struct passes *passes, enum pass_id id)
+{
+    for (int i = 0; i < passes->job_count; i++)
+        if (passes->ids[i] == id)
+            return &passes->jobs[i];
+    return NULL;
+}
+
+static bool has_ended(struct passes *passes, enum pass_id id)
+{
+    const struct povray_job *job = job_of(passes, id);
+    return !job || job->finished;
+}
+
+/* What the passes with a margin include: nothing as long as the camera isn't known. */
+static enum result write_camera(const struct passes *passes, const struct buffer *text, struct error *err)
 {
     char *path;
-    enum result result = text_printf(&path, err, "%s/%s/" PASS_MIXED_FILE, passes->folder.path, pass_table[PASS_BASE].name);
-    FILE *stream = result ? NULL : fopen(path, "r");
-    int file, line;
-    if (stream && fscanf(stream, "%d %d", &file, &line) == 2 && file >= 0 && file < passes->scene.file_count) {
-        size_t length = strlen(note->text);
-        snprintf(note->text + length, sizeof note->text - length,
-                 "%s%s:%d: this object holds something transparent and something glossy: reflections inside the "
-                 "transparent part are left out; make them objects of their own",
-                 length ? "; " : "", passes->scene.files[file].path, line);
-    }
-    if (stream)
-        fclose(stream);
+    enum result result = text_printf(&path, err, "%s/copies/" PASS_MARGIN_CAMERA, passes->folder.path);
+    if (!result)
+        result = file_write(path, text, err);
     free(path);
+    return result;
+}
+
+/* The picture's camera is found: with a margin it sees more. */
+static enum result add_margin(struct run *run, const struct pass_images *images, struct error *err)
+{
+    struct passes *passes = run->passes;
+    const struct passes_options *options = passes->options;
+    struct buffer text = {0};
+    int width = 0, height = 0;
+    enum result result = pass_images_camera(images, &passes->camera, &passes->has_camera, &width, &height, err);
+    if (result || !passes->has_camera)
+        return result;
+    passes->width = width;
+    passes->height = height;
+    passes->margin_x = options->margin_px > 0 ? options->margin_px : (int)lround(options->margin * width);
+    passes->margin_y = options->margin_px > 0 ? options->margin_px : (int)lround(options->margin * height);
+    int all_width = width + 2 * passes->margin_x, all_height = height + 2 * passes->margin_y;
+    if (all_width > IMAGE_MAX_SIDE || all_height > IMAGE_MAX_SIDE)
+        return error_set(err, RESULT_DATA, "%s: the picture with its margin is %dx%d pixels, more than %d: give less --margin",
+                         options->scene, all_width, all_height, IMAGE_MAX_SIDE);
+    result = camera_text(&passes->camera, (double)all_width / width, (double)all_height / height, &text, err);
+    if (!result)
+        result = write_camera(passes, &text, err);
+    for (int i = 0; !result && i < passes->job_count; i++)
+        if (pass_table[passes->ids[i]].margin) {
+            result = add_size(&run->arguments[i], all_width, all_height, err);
+            passes->jobs[i].arguments = run->arguments[i].texts;
+        }
+    buffer_free(&text);
+    return result;
+}
+
+static int clamp(int value, int low, int high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+/* Limits the pass to the glossy window, whose pixels are those of the exponent pass. It begins where a block of the whole
+ * picture begins: POV-Ray antialiases block by block. */
+static enum result add_glossy_window(struct run *run, int index, const struct image_window *window, struct error *err)
+{
+    struct passes *passes = run->passes;
+    const struct pass pass = pass_of(&passes->scene, passes->ids[index]);
+    int step = pass.full_size ? passes->options->subsample : 1;
+    int left = (int)window->left * step, right = left + window->width * step;
+    int top = (int)window->top * step, bottom = top + window->height * step;
+    if (passes->has_camera && !pass.margin) {
+        left = clamp(left - passes->margin_x, 0, passes->width - 1);
+        right = clamp(right - passes->margin_x, left + 1, passes->width);
+        top = clamp(top - passes->margin_y, 0, passes->height - 1);
+        bottom = clamp(bottom - passes->margin_y, top + 1, passes->height);
+    }
+    left -= left % POVRAY_BLOCK;
+    top -= top % POVRAY_BLOCK;
+    enum result result = add_window(&run->arguments[index], left, top, right - left, bottom - top, err);
+    passes->jobs[index].arguments = run->arguments[index].texts;
+    return result;
+}
+
+/* Where the exponent pass saw nothing glossy others have nothing to do. */
+static enum result narrow(struct run *run, const struct pass_images *images, struct error *err)
+{
+    struct image_window window;
+    enum result result = pass_images_glossy(images, &window, err);
+    for (int i = 0; !result && i < run->passes->job_count; i++)
+        if (pass_of(&run->passes->scene, run->passes->ids[i]).glossy_part)
+            result = add_glossy_window(run, i, &window, err);
+    return result;
+}
+
+/* Holds what needs something that isn't there yet: photons, the picture's camera, the glossy window. */
+static void hold(struct run *run)
+{
+    struct passes *passes = run->passes;
+    for (int i = 0; i < passes->job_count; i++) {
+        enum pass_id id = passes->ids[i];
+        passes->jobs[i].held = (id != PASS_PHOTONS && !has_ended(passes, PASS_PHOTONS)) ||
+                               (passes->margin && pass_table[id].margin && !run->camera_sought) ||
+                               (run->narrows && pass_of(&passes->scene, id).glossy_part && !run->narrowed);
+    }
+}
+
+/* A pass has ended, and others may have waited for it. */
+static enum result go_on(void *context, struct error *err)
+{
+    struct run *run = context;
+    struct passes *passes = run->passes;
+    char number[FRAMES_NUMBER_SIZE];
+    frames_number(&passes->options->frames, run->frame, number);
+    enum result result = RESULT_OK;
+    if (passes->margin && !run->camera_sought && has_ended(passes, PASS_DIRECTION) && has_ended(passes, PASS_PLACE) &&
+        has_ended(passes, PASS_PLACE_LOW)) {
+        const struct pass_images images = images_of(passes, number);
+        run->camera_sought = true;
+        result = add_margin(run, &images, err);
+    }
+    if (!result && run->narrows && !run->narrowed && has_ended(passes, PASS_EXPONENT)) {
+        const struct pass_images images = images_of(passes, number);
+        run->narrowed = true;
+        result = narrow(run, &images, err);
+    }
+    hold(run);
     return result;
 }
 
 static enum result run_passes(struct passes *passes, int frame, struct error *err)
 {
     const struct passes_options *options = passes->options;
-    struct text_list arguments[PASS_COUNT] = {0};
-    char *folders[PASS_COUNT] = {0};
-    enum result result = RESULT_OK;
+    struct run run = {.passes = passes, .frame = frame, .narrows = passes->scene.glossy && !options->switches->partial};
+    const struct buffer none = {0};
+    enum result result = passes->margin ? write_camera(passes, &none, err) : RESULT_OK;
+    passes->has_camera = false;
+    passes->margin_x = passes->margin_y = 0;
     for (int i = 0; !result && i < passes->job_count; i++) {
-        result = job_arguments(passes, passes->ids[i], frame, &arguments[i], err);
+        result = job_arguments(passes, passes->ids[i], frame, &run.arguments[i], err);
         if (!result)
-            result = text_printf(&folders[i], err, "%s/%s", passes->folder.path, pass_table[passes->ids[i]].name);
+            result = text_printf(&run.folders[i], err, "%s/%s", passes->folder.path, pass_table[passes->ids[i]].name);
         passes->jobs[i] = (struct povray_job){.name = pass_table[passes->ids[i]].name,
-                                              .folder = folders[i],
-                                              .arguments = arguments[i].texts,
-                                              .timeout_s = options->timeout_s};
+                                              .folder = run.folders[i],
+                                              .arguments = run.arguments[i].texts,
+                                              .timeout_s = options->timeout_s,
+                                              .ended = go_on,
+                                              .context = &run};
     }
+    hold(&run);
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
-    int first = passes->ids[0] == PASS_PHOTONS; /* the others wait for it */
-    if (!result && first)
+    if (!result && job_of(passes, PASS_PHOTONS))
         result = remove_left(passes, PASS_PHOTONS, PASS_PHOTONS_FILE, err);
+    for (int i = 0; !result && i < OBJECT_NOTES; i++)
+        result = remove_left(passes, PASS_BASE, object_notes[i].file, err);
     if (!result)
-        result = remove_left(passes, PASS_BASE, PASS_MIXED_FILE, err);
-    if (!result && first)
-        result = povray_run(passes->jobs, 1, 1, passes->environment, no_progress, NULL, &failed, err);
-    if (!result) {
-        result = povray_run(passes->jobs + first, passes->job_count - first, at_once, passes->environment,
-                            options->progress, options->progress_context, &failed, err);
-        failed += failed >= 0 ? first : 0;
-    }
+        result = povray_run(passes->jobs, passes->job_count, at_once, passes->environment, options->progress,
+                            options->progress_context, &failed, err);
     if (failed >= 0)
         result = report_failure(passes, &passes->jobs[failed], err);
     if (!result && !povray_is_other_version(&passes->jobs[0].messages, passes->version))
         passes->version[0] = 0;
+    add_timings(passes, passes->jobs, passes->job_count);
     povray_jobs_free(passes->jobs, passes->job_count);
     for (int i = 0; i < passes->job_count; i++) {
-        text_list_free(&arguments[i]);
-        free(folders[i]);
-    }
-    return result;
-}
-
-/* The size of the image, all of it. */
-static enum result add_size(struct text_list *arguments, int width, int height, struct error *err)
-{
-    const struct {
-        const char *format;
-        int value;
-    } switches[] = {{"+W%d", width}, {"+H%d", height}, {"+SC%d", 1}, {"+EC%d", width}, {"+SR%d", 1}, {"+ER%d", height}};
-    enum result result = RESULT_OK;
-    for (size_t i = 0; !result && i < sizeof switches / sizeof *switches; i++) {
-        char text[32];
-        snprintf(text, sizeof text, switches[i].format, switches[i].value);
-        result = text_list_add(arguments, err, "%s", text);
+        text_list_free(&run.arguments[i]);
+        free(run.folders[i]);
     }
     return result;
 }
@@ -545,6 +791,8 @@ static enum result run_view(const struct passes *passes, int frame, int width, i
     if (!result)
         result = add_size(&arguments, width, height, err);
     if (!result)
+        result = add_window(&arguments, 0, 0, width, height, err);
+    if (!result)
         result = text_printf(&folder, err, "%s/%s", passes->folder.path, pass_table[PASS_PROBE].name);
     struct povray_job job = {
         .name = pass_table[PASS_PROBE].name, .folder = folder, .arguments = arguments.texts};
@@ -552,6 +800,7 @@ static enum result run_view(const struct passes *passes, int frame, int width, i
         result = povray_run(&job, 1, 1, passes->environment, no_progress, NULL, &failed, err);
     if (failed >= 0)
         result = report_failure(passes, &job, err);
+    add_timings(passes, &job, 1);
     povray_jobs_free(&job, 1);
     text_list_free(&arguments);
     free(folder);
@@ -611,6 +860,20 @@ static void note_version(struct passes *passes, struct error *note)
               before.text, before.text[0] ? "; " : "", passes->version);
 }
 
+static void note_margin(const struct passes *passes, struct error *note)
+{
+    const struct passes_options *options = passes->options;
+    struct error before = *note;
+    bool asked = (options->margin > 0 || options->margin_px > 0) && passes->scene.glossy;
+    const char *reason = options->switches->partial      ? "only a part of the picture is rendered"
+                         : passes->scene.focal_blur        ? "the camera has an aperture"
+                         : depends_on_size(&passes->scene) ? "the scene depends on the picture's size"
+                                                           : "the camera isn't a perspective one";
+    if (asked && !passes->has_camera)
+        error_set(note, RESULT_OK, "%s%s%s: there is no margin: %s", before.text, before.text[0] ? "; " : "",
+                  options->scene, reason);
+}
+
 /* The images of a long animation don't pile up. */
 static enum result remove_image(const struct passes *passes, const struct pass_images *images, enum pass_id id,
                                 struct error *err)
@@ -636,6 +899,7 @@ static enum result remove_images(const struct passes *passes, const struct pass_
 /* Reads the scene and writes those of the passes. */
 static enum result prepare(struct passes *passes, int frame, struct error *note, struct error *err)
 {
+    struct timings_moment start = timings_now();
     passes->frame = frame;
     note->text[0] = 0;
     enum result result = load_scene(passes, err);
@@ -643,7 +907,10 @@ static enum result prepare(struct passes *passes, int frame, struct error *note,
         result = discover(passes, err);
     if (!result)
         result = check_scene(passes, note, err);
-    return result ? result : write_scenes(passes, err);
+    if (!result)
+        result = write_scenes(passes, err);
+    timings_add(passes->options->timings, "scene", start);
+    return result;
 }
 
 /* What POV-Ray computes may be something else in another frame. */
@@ -660,7 +927,8 @@ enum result passes_open(const struct passes_options *options, struct passes **op
                         struct error *err)
 {
     const struct povray_switches *switches = options->switches;
-    assert(!(options->rays && options->subsample > 1));
+    assert(!((options->rays || options->margin > 0 || options->margin_px > 0) && options->subsample > 1));
+    assert(!(options->rays && (options->margin > 0 || options->margin_px > 0)));
     assert(options->subsample >= 1 && (options->subsample == 1 || (switches->width > 0 && switches->height > 0)));
     struct passes *passes = *opened = calloc(1, sizeof *passes);
     if (!passes)
@@ -675,17 +943,9 @@ enum result passes_open(const struct passes_options *options, struct passes **op
         result = link_directories(passes, err);
     if (!result)
         result = prepare_environment(passes, err);
+    if (!result)
+        result = find_command(passes, err);
     return result ? result : prepare(passes, options->frames.first, note, err);
-}
-
-static struct pass_images images_of(const struct passes *passes, const char *number)
-{
-    return (struct pass_images){.folder = passes->folder.path,
-                                .number = number,
-                                .name = passes->options->scene,
-                                .scene = &passes->scene,
-                                .subsample = passes->options->subsample,
-                                .rays = passes->options->rays};
 }
 
 enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
@@ -694,20 +954,26 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     const struct passes_options *options = passes->options;
     char number[FRAMES_NUMBER_SIZE];
     frames_number(&options->frames, frame, number);
-    const struct pass_images images = images_of(passes, number);
     *gbuffer = (struct gbuffer){0};
     note->text[0] = 0;
     enum result result = prepare_frame(passes, frame, err);
+    struct timings_moment start = timings_now();
     if (!result)
         result = run_passes(passes, frame, err);
+    timings_add(options->timings, "passes", start);
     if (!result && options->reads)
         result = collect_reads(passes, err);
+    start = timings_now();
+    const struct pass_images images = images_of(passes, number);
     if (!result)
         result = pass_images_read(&images, gbuffer, note, err);
-    if (!result)
+    timings_add(options->timings, "decode", start);
+    if (!result) {
+        note_margin(passes, note);
         note_version(passes, note);
+    }
     if (!result)
-        result = note_mixed(passes, note, err);
+        result = note_objects(passes, note, err);
     if (!result)
         result = remove_images(passes, &images, err);
     if (result)
@@ -744,15 +1010,19 @@ enum result passes_check_sum(const struct passes *passes, int frame, const struc
         return RESULT_OK;
     frames_number(&options->frames, frame, number);
     const struct pass_images images = images_of(passes, number);
+    struct timings_moment start = timings_now();
     enum result result = pass_images_radiance(&images, PASS_OWN, &own, err);
     if (!result)
         result = compose(gbuffer, &gbuffer->specular, &sum, err);
+    if (!result && gbuffer->window.width > 0)
+        result = image_crop(&sum, &gbuffer->window, err);
     if (!result)
         result = picture_check(&sum, &own, single_rays, tolerance, &difference, err);
     if (!result)
         note_difference(passes, &difference, note);
     if (!result)
         result = remove_image(passes, &images, PASS_OWN, err);
+    timings_add(options->timings, "check", start);
     image_free(&sum);
     image_free(&own);
     return result;
@@ -791,6 +1061,7 @@ enum result passes_close(struct passes *passes, struct error *err)
         return RESULT_OK;
     free_scene(passes);
     reads_free(&passes->reads);
+    text_list_free(&passes->command);
     free(passes->environment);
     free(passes->preload);
     enum result result = work_folder_remove(&passes->folder, err);

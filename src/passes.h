@@ -2,14 +2,18 @@
  *
  *   base         the scene with the glossy finishes' reflection switched off
  *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors and the rest is black, mirrored
- *                rays see the scene itself
- *   haze         where there is fog, a rainbow or media: the same without mirrors, which is what they add before the glossy
+ *                rays see the scene itself; with focal blur and mixed textures times the reflectivity
+ *   haze         where there is fog, a rainbow or media, or L0 is weighted: the same without mirrors, which is what they add before the glossy
  *                surface to the specular pass
  *   reflectance  glossy surfaces with their own reflection and no shading, under a sky of one half
+ *   reflectivity the same by one ray a pixel, by which a weighted L0 is divided
  *   position     a, coded as a colour (position_code.h)
  *   endpoint     b: mirrors seen by the camera, coded positions seen by mirrored rays, coded directions where they miss
  *   direction    the camera's rays, coded: they give the eye and the view angle whatever the camera
- *   exponent     the Phong exponent, where the scene has more than one
+ *   exponent     the Phong exponent; the passes that only the reflection needs wait for it, to be rendered where
+ *                something is glossy alone
+ *   place        few positions, which tell the eye's where the passes are rendered with a margin
+ *   exponent-mean  the same antialiased, where an exponent is painted, so that its edges are as smooth as the picture's
  *   own          POV-Ray's own picture, small: what the parts must add up to
  */
 #ifndef POVGLOSS_PASSES_H
@@ -19,6 +23,7 @@
 #include "povray.h"
 #include "povray_switches.h"
 #include "scene.h"
+#include "timings.h"
 
 struct passes_options {
     const char *scene;  /* path of the .pov file */
@@ -29,13 +34,17 @@ struct passes_options {
     struct frames frames; /* those that the switches ask for */
     int subsample;        /* 1; 2 or 4: specular, a and b are traced at every so-many-th pixel and interpolated; then the
                              switches say the size */
+    double margin;        /* in which the reflection is rendered around the picture, as a share of its width and height, and */
+    int margin_px;        /* in pixels; one of them is 0. Only for perspective cameras, without subsampling and rays */
     int jobs;             /* POV-Ray processes at the same time; 0: two more than there are cores */
     int timeout_s;        /* for each POV-Ray process; 0: none */
     bool check;           /* POV-Ray's own picture is rendered, too, for passes_check_sum */
     bool rays;            /* the gbuffer gets the eye's rays and the mirrored ones; not with subsampling */
+    bool sandbox;         /* POV-Ray runs in one (sandbox.h) */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */
     povray_progress *progress;
     void *progress_context;
+    struct timings *timings; /* gets a row for each step; NULL: none */
 };
 
 struct passes;

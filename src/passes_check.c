@@ -58,8 +58,11 @@ static void tell_names(struct check *check, const struct passes_found *found, bo
             *complete = false;
             SAY(check, " MISSING: %s (%s); if it goes by another name: --map %s=NAME", missing, group->meaning,
                 missing);
-        } else if (missing)
+        } else if (missing && group->without) {
             SAY(check, " missing: %s", group->without);
+        } else if (missing) {
+            SAY(check, " none");
+        }
         SAY(check, "\n");
     }
 }
@@ -96,17 +99,6 @@ static bool is_finite_at(const struct image *image, int x, int y)
     return finite;
 }
 
-/* The filter's own rule, but for what must be finite. */
-static bool is_glossy(const struct gbuffer *gbuffer, int x, int y)
-{
-    if (gbuffer->phong.pixels && !(image_row(&gbuffer->phong, 0, y)[x] > 0))
-        return false;
-    for (int i = 0; i < 4; i++)
-        if (image_row(&gbuffer->endpoint, i, y)[x] != 0)
-            return true;
-    return false;
-}
-
 /* A position, or an endpoint with its W divided out; false: there is none. */
 static bool point_at(const struct image *image, int x, int y, double point[3])
 {
@@ -135,7 +127,7 @@ static void check_finite(struct check *check)
                 exponent += !(image_row(&gbuffer->phong, 0, y)[x] >= 0);
             if (gbuffer->base.pixels)
                 base += !is_finite_at(&gbuffer->base, x, y);
-            if (!is_glossy(gbuffer, x, y))
+            if (!gbuffer_is_glossy(gbuffer, x, y))
                 continue;
             check->glossy++;
             double a[3];
@@ -174,7 +166,7 @@ static void check_w(struct check *check)
     long plain = 0, mixed = 0, odd_length = 0;
     for (int y = 0; y < gbuffer->endpoint.height; y++)
         for (int x = 0; x < gbuffer->endpoint.width; x++) {
-            if (!is_glossy(gbuffer, x, y) || !is_finite_at(&gbuffer->endpoint, x, y))
+            if (!gbuffer_is_glossy(gbuffer, x, y) || !is_finite_at(&gbuffer->endpoint, x, y))
                 continue;
             double w = (double)image_row(&gbuffer->endpoint, 3, y)[x], square = 0;
             for (int i = 0; i < 3; i++)
@@ -272,12 +264,12 @@ static void check_lengths(struct check *check)
     double farthest = 0, a[3], b[3];
     for (int y = 0; y < gbuffer->position.height; y++)
         for (int x = 0; x < gbuffer->position.width; x++)
-            if (is_glossy(gbuffer, x, y) && point_at(&gbuffer->position, x, y, a))
+            if (gbuffer_is_glossy(gbuffer, x, y) && point_at(&gbuffer->position, x, y, a))
                 farthest = fmax(farthest, distance(a, (const double[3]){0, 0, 0}));
     long touch = 0;
     for (int y = 0; y < gbuffer->position.height; y++)
         for (int x = 0; x < gbuffer->position.width; x++)
-            touch += is_glossy(gbuffer, x, y) && point_at(&gbuffer->position, x, y, a) &&
+            touch += gbuffer_is_glossy(gbuffer, x, y) && point_at(&gbuffer->position, x, y, a) &&
                      point_at(&gbuffer->endpoint, x, y, b) && distance(a, b) < touching * farthest;
     if ((double)touch >= touching_share * (double)check->glossy)
         wrong(check, touch, "have mirrored rays that end where they begin: begin them off the surface");

@@ -11,7 +11,8 @@
 /* The image of each channel group in struct gbuffer. */
 static const size_t image_offsets[CHANNEL_GROUPS] = {
     offsetof(struct gbuffer, base),     offsetof(struct gbuffer, specular), offsetof(struct gbuffer, reflectance),
-    offsetof(struct gbuffer, position), offsetof(struct gbuffer, endpoint), offsetof(struct gbuffer, phong)};
+    offsetof(struct gbuffer, position), offsetof(struct gbuffer, endpoint), offsetof(struct gbuffer, phong),
+    offsetof(struct gbuffer, rays)};
 
 static enum result refuse_missing(const char *path, const struct channel_group *group, const char *missing,
                                   bool others, struct error *err)
@@ -138,7 +139,10 @@ enum result passes_file_write(const char *path, const struct gbuffer *gbuffer, s
     }
     struct exr_attributes attributes = {.has_eye = gbuffer->has_eye,
                                         .view_angle = gbuffer->view_angle,
-                                        .working_gamma = gbuffer->working_gamma};
+                                        .working_gamma = gbuffer->working_gamma,
+                                        .window = gbuffer->window};
+    if (gbuffer->window.width > 0)
+        attributes.view_angle = (float)((double)gbuffer->view_angle * gbuffer->window.width / gbuffer->position.width);
     memcpy(attributes.eye, gbuffer->eye, sizeof attributes.eye);
     return exr_write(path, channels, count, &attributes, err);
 }

@@ -14,6 +14,8 @@
 #define FIRST_DECADE (-12.0)
 /* Between the largest radius of a position, 0.95, and that of a direction, 1. */
 #define DIRECTION_RADIUS 0.975
+/* |p|^2, and never 0. */
+#define SQUARE "x*x + y*y + z*z + 1e-24"
 
 enum result position_code_pigment(struct buffer *text, bool direction, enum position_digits digits, struct error *err)
 {
@@ -21,16 +23,15 @@ enum result position_code_pigment(struct buffer *text, bool direction, enum posi
     enum result result = buffer_add_text(text, "pigment { average pigment_map {\n", err);
     for (int axis = 0; !result && axis < 3; axis++) {
         struct buffer v = {0};
-        result = buffer_printf(&v, err, "0.5 + %.17g*%s/(sqrt(x*x + y*y + z*z) + 1e-30)", SPAN, axes[axis]);
+        result = buffer_printf(&v, err, "0.5 + %.17g*%s/sqrt(" SQUARE ")", SPAN, axes[axis]);
         if (!result && !direction)
-            result = buffer_printf(&v, err,
-                                   "*(%.17g + %.17g*min(1, max(0, (log(sqrt(x*x + y*y + z*z) + 1e-30) + %.17g)/%.17g)))",
-                                   RADIUS_START, RADIUS_SPAN, -FIRST_DECADE, DECADES);
+            result = buffer_printf(&v, err, "*min(%.17g, %.17g + %.17g*log(" SQUARE "))", RADIUS_START + RADIUS_SPAN,
+                                   RADIUS_START - RADIUS_SPAN * FIRST_DECADE / DECADES, RADIUS_SPAN / DECADES / 2);
         if (!result && digits == POSITION_DIGITS_HIGH)
             result = buffer_printf(text, err, "[1 function { %s }", v.data);
         else if (!result)
-            result = buffer_printf(text, err, "[1 function { %.17g + %.17g*(%.17g*(%s) - floor(%.17g*(%s))) }", LOW_START,
-                                   LOW_SPAN, LOW_STEPS, v.data, LOW_STEPS, v.data);
+            result = buffer_printf(text, err, "[1 function { %.17g + %.17g*mod(%.17g*(%s), 1) }", LOW_START, LOW_SPAN,
+                                   LOW_STEPS, v.data);
         if (!result)
             result = buffer_printf(text, err, " color_map { [0 rgb 0] [1 %s 3] }]\n", colours[axis]);
         buffer_free(&v);

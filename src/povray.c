@@ -6,6 +6,7 @@
 #include "povray.h"
 
 #include "interrupt.h"
+#include "timings.h"
 
 #include <errno.h>
 #include <math.h>
@@ -13,7 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { MAX_JOBS = 16, POLL_MS = 200, POLL_ENDING_MS = 5, MAX_MESSAGES = 1 << 22 };
@@ -29,13 +29,6 @@ static void read_progress(struct povray_job *job)
     int whole = 0;
     if (last && sscanf(last, "Rendered %lf of %lf pixels%n", &pixels, &all, &whole) == 2 && whole > 0 && all > 0)
         job->done = pixels / all;
-}
-
-static double now_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 /* Takes what there is to read, and closes the pipe at its end. */
@@ -58,17 +51,31 @@ static enum result read_messages(struct povray_job *job, struct error *err)
     return result;
 }
 
+enum result povray_missing(const char *program, struct error *err)
+{
+    return error_set(err, RESULT_POVRAY,
+                     "%s isn't in PATH: install POV-Ray 3.7 (on Debian: apt-get install povray povray-includes)", program);
+}
+
 static enum result start_job(struct povray_job *job, char *const *environment, struct error *err)
 {
     bool missing;
+    job->start_s = timings_clock_s();
     enum result result = child_start(&job->child, job->arguments, job->folder, environment, &missing, err);
     if (result && missing)
-        return error_set(err, RESULT_POVRAY,
-                         "%s isn't in PATH: install POV-Ray 3.7 (on Debian: apt-get install povray povray-includes)",
-                         job->arguments[0]);
+        return povray_missing(job->arguments[0], err);
     job->started = !result;
-    job->end_s = job->timeout_s > 0 ? now_s() + job->timeout_s : INFINITY;
+    job->end_s = job->timeout_s > 0 ? job->start_s + job->timeout_s : INFINITY;
     return result;
+}
+
+/* The first job that may be started, or NULL. */
+static struct povray_job *next_job(struct povray_job *jobs, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!jobs[i].started && !jobs[i].held)
+            return &jobs[i];
+    return NULL;
 }
 
 static void report(const struct povray_job *jobs, int count, povray_progress *progress, void *context)
@@ -83,11 +90,12 @@ enum result povray_run(struct povray_job *jobs, int count, int at_once, char *co
                        povray_progress *progress, void *context, int *failed, struct error *err)
 {
     enum result result = RESULT_OK;
-    int finished = 0, running = 0, next = 0;
+    int finished = 0, running = 0;
     *failed = -1;
     while (!result && finished < count) {
-        while (!result && running < at_once && next < count && running < MAX_JOBS) {
-            result = start_job(&jobs[next++], environment, err);
+        struct povray_job *next;
+        while (!result && running < at_once && running < MAX_JOBS && (next = next_job(jobs, count))) {
+            result = start_job(next, environment, err);
             running += !result;
         }
         struct pollfd polls[MAX_JOBS];
@@ -109,18 +117,21 @@ enum result povray_run(struct povray_job *jobs, int count, int at_once, char *co
             int status;
             if (polls[i].revents)
                 result = read_messages(job, err);
-            if (!result && now_s() > job->end_s)
+            if (!result && timings_clock_s() > job->end_s)
                 result = error_set(err, RESULT_POVRAY, "POV-Ray took longer than %d s in the %s pass, and was ended: give it "
                                    "more time (--timeout)", job->timeout_s, job->name);
             if (result || job->child.output_fd >= 0 || !child_has_ended(&job->child, &status))
                 continue;
             job->finished = true;
+            job->wall_s = timings_clock_s() - job->start_s;
             running--;
             finished++;
             if (status && !interrupt_signal()) {
                 *failed = owners[i];
                 result = error_set(err, RESULT_POVRAY, "povray failed with exit status %d in the %s pass", status,
                                    job->name);
+            } else if (job->ended && !interrupt_signal()) {
+                result = job->ended(job->context, err);
             }
         }
         report(jobs, count, progress, context);

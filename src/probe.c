@@ -81,12 +81,6 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static void cross(const double a[3], const double b[3], double c[3])
-{
-    for (int i = 0; i < 3; i++)
-        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
 /* False for a vector without direction. */
 static bool normalise(double v[3])
 {
@@ -96,14 +90,17 @@ static bool normalise(double v[3])
     return length > 0 && isfinite(length);
 }
 
-/* Unit vectors `across` and `up` at right angles to the unit vector `axis` and to each other. */
+/* Unit vectors `across` and `up` at right angles to the unit vector `axis` and to each other. They change with it without
+ * leaps, but about -y (Frisvad, Building an orthonormal basis from a 3D unit vector without normalization, 2012). */
 static void make_frame(const double axis[3], double turn, double across[3], double up[3])
 {
-    double other[3] = {0}, first[3], second[3];
-    other[fabs(axis[0]) > 0.6] = 1;
-    cross(axis, other, first);
-    normalise(first);
-    cross(axis, first, second);
+    double share = 1 / fmax(1 + axis[1], 1e-12), both = -axis[0] * axis[2] * share;
+    double first[3] = {both, -axis[2], 1 - axis[2] * axis[2] * share};
+    double second[3] = {1 - axis[0] * axis[0] * share, -axis[0], both};
+    if (axis[1] < -1 + 1e-9) {
+        memcpy(first, (double[3]){1, 0, 0}, sizeof first);
+        memcpy(second, (double[3]){0, 0, 1}, sizeof second);
+    }
     for (int i = 0; i < 3; i++) {
         across[i] = cos(turn) * first[i] + sin(turn) * second[i];
         up[i] = cos(turn) * second[i] - sin(turn) * first[i];
@@ -119,7 +116,7 @@ static void read_vector(const struct image *image, int x, int y, double v[3])
 /* ---- choosing the pixels ---- */
 
 /* The mirror and the rays of a pixel; false where the passes don't tell them. */
-static bool place(struct probe *probe, const struct gbuffer *gbuffer, unsigned seed)
+static bool place(struct probe *probe, const struct gbuffer *gbuffer, const struct probe_options *options)
 {
     double view[3], mirrored[3];
     read_vector(&gbuffer->position, probe->x, probe->y, probe->position);
@@ -140,8 +137,9 @@ static bool place(struct probe *probe, const struct gbuffer *gbuffer, unsigned s
     probe->scale = fmax(1, sqrt(from_origin) / FAR_AWAY);
     for (int i = 0; i < 3; i++)
         probe->position[i] += LIFT * sqrt(fmax(from_eye, from_origin)) * probe->normal[i];
-    uint32_t random = hash(hash(hash(seed + 0x9e3779b9u) + (uint32_t)probe->x) + (uint32_t)probe->y);
-    make_frame(probe->axis, 2 * pi * random / 4294967296.0, probe->across, probe->up);
+    uint32_t random = hash((unsigned)options->seed + 0x9e3779b9u);
+    random = hash(hash(random + (uint32_t)probe->x) + (uint32_t)probe->y);
+    make_frame(probe->axis, options->rays ? 0 : 2 * pi * random / 4294967296.0, probe->across, probe->up);
     return true;
 }
 
@@ -157,7 +155,7 @@ static enum result add_pixel(struct buffer *list, const struct gbuffer *gbuffer,
 {
     struct probe probe = {.x = x, .y = y};
     double phong = (double)image_row(&gbuffer->phong, 0, y)[x];
-    if (!(phong > 0) || !place(&probe, gbuffer, (unsigned)options->seed))
+    if (!(phong > 0) || !place(&probe, gbuffer, options))
         return RESULT_OK;
     for (int channel = 0; channel < 3; channel++)
         probe.specular[channel] = image_row(&gbuffer->specular, channel, y)[x];
@@ -189,17 +187,18 @@ enum result probes_begin(struct probes *probes, const struct gbuffer *gbuffer, c
                               .lobes = options->rays ? PROBE_LOBES : 1,
                               .most = options->rays ? options->rays : PROBE_MOST_RAYS,
                               .rays = options->rays ? options->rays : PROBE_FIRST_RAYS};
-    for (double y = cell / 2; !result && y < phong->height; y += cell)
+    int end = options->end_row > 0 ? options->end_row : phong->height;
+    for (double y = options->first_row + cell / 2; !result && y < end; y += cell)
         for (double x = cell / 2; !result && x < phong->width; x += cell)
             result = add_pixel(&list, gbuffer, (int)x, (int)y, options, err);
     probes->list = (struct probe *)(void *)list.data;
     probes->count = (int)(list.size / sizeof *probes->list);
-    if (!result && !probes->count)
+    if (!result && !probes->count && !options->end_row)
         result = error_set(err, RESULT_DATA, "no pixel of the grid is glossy: a --grid above %d has more",
                            options->grid);
-    if (!result)
+    if (!result && probes->count)
         qsort(probes->list, (size_t)probes->count, sizeof *probes->list, by_exponent_and_pixel);
-    if (!result && !(probes->viewed = malloc((size_t)probes->count * sizeof *probes->viewed)))
+    if (!result && probes->count && !(probes->viewed = malloc((size_t)probes->count * sizeof *probes->viewed)))
         result = error_memory(err, (double)probes->count * sizeof *probes->viewed);
     return result;
 }
@@ -229,19 +228,28 @@ static enum result add_face(struct buffer *text, const double ray[3], struct err
     return result ? result : buffer_add_text(text, "\n", err);
 }
 
-static unsigned lobe_seed(const struct probes *probes, int lobe)
-{
-    return hash(probes->seed * PROBE_LOBES + (unsigned)lobe);
-}
-
+/* With few rays the pixels of a tile of 8 x 8 have lobes of their own, in Morton order: those of an aligned square of 2 x 2
+ * or 4 x 4 pixels follow each other. */
 static int lobe_of(const struct probes *probes, const struct probe *probe)
 {
-    return (int)(hash(hash((uint32_t)probe->x) + (uint32_t)probe->y) % (unsigned)probes->lobes);
+    int lobe = 0;
+    for (int bit = 0; bit < 3; bit++)
+        lobe |= (probe->x >> bit & 1) << 2 * bit | (probe->y >> bit & 1) << (2 * bit + 1);
+    return probes->lobes > 1 ? lobe : 0;
 }
 
-unsigned probe_seed(const struct probes *probes, const struct probe *probe)
+/* Several lobes are parts of one sequence. */
+static void lobe_ray(const struct probes *probes, int lobe, double phong, long ray, double direction[3])
 {
-    return lobe_seed(probes, lobe_of(probes, probe));
+    long index = probes->rays_before + ray;
+    if (probes->lobes > 1)
+        index = PROBE_SETS * (lobe * probes->rays + index);
+    probe_ray(phong, hash(probes->seed), index, direction);
+}
+
+void probes_ray(const struct probes *probes, const struct probe *probe, long ray, double direction[3])
+{
+    lobe_ray(probes, lobe_of(probes, probe), probe->phong, ray, direction);
 }
 
 /* The round's new rays of a lobe, as a mesh of one face each. */
@@ -251,7 +259,7 @@ static enum result add_lobe(const struct probes *probes, int lobe, double phong,
     enum result result = buffer_printf(text, err, "mesh2 { vertex_vectors { %ld,\n", 3 * count);
     for (long i = 0; !result && i < count; i++) {
         double ray[3];
-        probe_ray(phong, lobe_seed(probes, lobe), probes->rays_before + i, ray);
+        lobe_ray(probes, lobe, phong, i, ray);
         result = add_face(text, ray, err);
     }
     if (!result)
@@ -412,8 +420,7 @@ enum result probes_take(struct probes *probes, const struct image *image, struct
         double normal[3] = {dot(probe->across, probe->normal), dot(probe->up, probe->normal),
                             dot(probe->axis, probe->normal)};
         for (long ray = 0; begins_exponent(probes, i) && ray < count * probes->lobes; ray++)
-            probe_ray(probe->phong, lobe_seed(probes, (int)(ray / count)), probes->rays_before + ray % count,
-                      rays[ray]);
+            lobe_ray(probes, (int)(ray / count), probe->phong, ray % count, rays[ray]);
         for (long face = 0; face < count; face++) {
             if (dot(rays[lobe_of(probes, probe) * count + face], normal) >= 0)
                 continue;
@@ -452,6 +459,16 @@ enum result probes_image(const struct probes *probes, const struct gbuffer *gbuf
     }
     image_free(&counts);
     return result;
+}
+
+void probes_means(const struct probes *probes, struct image *means)
+{
+    for (int i = 0; i < probes->count; i++) {
+        const struct probe *probe = &probes->list[i];
+        for (int channel = 0; channel < 3; channel++)
+            image_row(means, channel, probe->y)[probe->x] = (float)probe->value[channel];
+        image_row(means, 3, probe->y)[probe->x] = (float)probe->samples;
+    }
 }
 
 int probes_open(const struct probes *probes)

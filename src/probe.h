@@ -8,8 +8,10 @@
  *
  * Directions are drawn with density cos^p, so that all count the same: PROBE_SETS sets of points, each a
  * (0, 2)-sequence with a random scrambling of its own (Owen, 1995), turned about m at random for each probe. The sets'
- * means are independent: their spread gives the error. Probes are measured in rounds, each with four times as many
- * rays, until the error is small enough:
+ * means are independent: their spread gives the error. With a given number of rays at every pixel the 64 pixels of each
+ * tile of 8 x 8 share one such sequence, each taking a part of it (interleaved sampling, Keller and Heidrich, 2001), and
+ * the lobes are turned alike: the mean over some pixels errs less than that of rays at random. Probes are measured in
+ * rounds, each with four times as many rays, until the error is small enough:
  *
  *   while (probes_left(&probes)) { probes_view -> rendered by POV-Ray -> probes_take }
  */
@@ -23,7 +25,7 @@ enum {
     PROBE_SETS = 16,
     PROBE_FIRST_RAYS = 1024,     /* a probe's rays after the first round */
     PROBE_MOST_RAYS = 1 << 18,   /* and after the last */
-    PROBE_LOBES = 64,            /* with few rays probes must not all have the same ones */
+    PROBE_LOBES = 64,            /* with few rays probes don't all have the same ones */
     PROBE_VIEW_WIDTH = 1024,     /* of the images, pixels */
     PROBE_VIEW_RAYS = 1 << 22,   /* in one image, with the faces of its lobes, unless one probe has more */
 };
@@ -51,6 +53,7 @@ struct probe_options {
     const double *exponents; /* in place of the scene's; none: NULL, 0 */
     int exponent_count;
     int rays;                /* of each probe; 0: as many as the error asks for */
+    int first_row, end_row;  /* of the picture: only what lies from the one up to, but not including, the other; 0, 0: all */
     int seed;
 };
 
@@ -66,7 +69,8 @@ struct probes {
     int *viewed, viewed_count; /* those of the view that was made last */
 };
 
-/* Chooses the pixels: the centre of every grid cell where that is glossy. RESULT_DATA where none is. The gbuffer must
+/* Chooses the pixels: the centre of every grid cell where that is glossy. RESULT_DATA where none is, but for a
+ * part of the rows. The gbuffer must
  * have the eye's rays and the mirrored ones. The caller frees *probes. */
 MUST_CHECK enum result probes_begin(struct probes *probes, const struct gbuffer *gbuffer,
                                     const struct probe_options *options, struct error *err);
@@ -76,6 +80,9 @@ void probes_free(struct probes *probes);
  * gbuffer's size (R G B, allocated here), which is black elsewhere. */
 MUST_CHECK enum result probes_image(const struct probes *probes, const struct gbuffer *gbuffer, struct image *image,
                                     struct error *err);
+
+/* Puts the values and the number of rays that count (4 channels) at their pixels, and leaves the others. */
+void probes_means(const struct probes *probes, struct image *means);
 
 /* Whether rays are missing; closes a round that is over. */
 bool probes_left(struct probes *probes);
@@ -94,7 +101,7 @@ MUST_CHECK enum result probes_take(struct probes *probes, const struct image *im
 /* Ray `index` of all rays of a lobe of this exponent, in its frame: z along the axis; the set is index % PROBE_SETS. */
 void probe_ray(double phong, unsigned seed, long index, double ray[3]);
 
-/* The seed of a probe's lobe. */
-unsigned probe_seed(const struct probes *probes, const struct probe *probe);
+/* Ray `ray` of those that the round adds to the probe's lobe, in its frame (across, up, axis). */
+void probes_ray(const struct probes *probes, const struct probe *probe, long ray, double direction[3]);
 
 #endif

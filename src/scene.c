@@ -8,6 +8,7 @@
 #include "lobe.h"
 #include "scene_surfaces.h"
 #include "scene_tokens.h"
+#include "scene_unions.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -25,10 +26,11 @@ static void note_exponent(struct scene *scene, double exponent)
     scene->glossy = true;
 }
 
-/* Notes one call Gloss(p) or Gloss_Roughness(r) whose name is at `token`. */
+/* Notes one call of gloss_macros whose name is at `token`. */
 static void note_gloss(struct scene *scene, const struct scene_file *file, int token)
 {
     double exponent = -1;
+    scene->painted |= is_word(file, token, "Gloss_Map");
     if (file->list.tokens[token + 2].kind == TOKEN_NUMBER && is_mark(file, token + 3, ")")) {
         exponent = number_value(file, token + 2);
         if (is_word(file, token, "Gloss_Roughness"))
@@ -48,7 +50,7 @@ static bool is_plain_mirror(const struct scene_file *file, int token)
         return !zero;
     bool gloss = false, conditional = false;
     for (int i = brace; i < file->list.tokens[brace].match; i++) {
-        gloss |= is_word(file, i, "Gloss") || is_word(file, i, "Gloss_Roughness");
+        gloss |= in_list(file, i, gloss_macros);
         conditional |= file->list.tokens[i].kind == TOKEN_DIRECTIVE;
     }
     return !zero && (!gloss || conditional);
@@ -187,13 +189,13 @@ static const struct limit {
     [SCENE_LIMIT_REFLECTION_EXPONENT] = {"reflection_exponent", "finish",
                                          "the reflection_exponent of a glossy finish counts as 1"},
     [SCENE_LIMIT_IRID] = {"irid", "finish", "irid in a glossy finish doesn't tint its reflection"},
-    [SCENE_LIMIT_FOCAL_BLUR] = {"aperture", "camera", "focal blur leaves glossy reflections as sharp as they are"},
     [SCENE_LIMIT_SAVED_PHOTONS] = {"save_file", "photons",
                                    "photons that the scene saves aren't reflected by glossy surfaces"},
     [SCENE_LIMIT_SUBSURFACE] = {"subsurface", "global_settings",
                                 "with subsurface light, glossy surfaces that are seen in a mirror reflect nothing there"},
     [SCENE_LIMIT_MEDIA] = {"media", "interior",
-                           "media in an object neither dim nor tint the reflection of a glossy surface in or behind it"},
+                           "media in an object that the camera is outside of neither dim nor tint the reflection of a glossy "
+                           "surface in or behind it"},
 };
 
 const char *scene_limit_text(enum scene_limit limit)
@@ -204,8 +206,10 @@ const char *scene_limit_text(enum scene_limit limit)
 /* Whether the finish at this brace reflects, or may since it begins with a name. */
 static bool may_reflect(const struct scene_file *file, int brace)
 {
-    static const char *const words[] = {"reflection", "Gloss", "Gloss_Roughness", NULL};
-    return has_fact(file, brace + 1, NAME_DECLARED) || mentions(file, brace, file->list.tokens[brace].match, words);
+    static const char *const words[] = {"reflection", NULL};
+    int last = file->list.tokens[brace].match;
+    return has_fact(file, brace + 1, NAME_DECLARED) || mentions(file, brace, last, words) ||
+           mentions(file, brace, last, gloss_macros);
 }
 
 static void note_limits(struct scene *scene, const struct scene_file *file, int token)
@@ -257,8 +261,8 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
     if (is_word(file, token, "assumed_gamma"))
         return note_gamma(scene, file, token, err);
     bool own = !strcmp(base_name(file->path), "povgloss.inc");
-    if (!own && (is_word(file, token, "Gloss") || is_word(file, token, "Gloss_Roughness")) &&
-        is_mark(file, token + 1, "(") && !is_directive(file, token - 1, "macro"))
+    if (!own && in_list(file, token, gloss_macros) && is_mark(file, token + 1, "(") &&
+        !is_directive(file, token - 1, "macro"))
         note_gloss(scene, file, token);
     static const char *const atmospheres[] = {"fog", "rainbow", "media"};
     for (size_t i = 0; i < sizeof atmospheres / sizeof *atmospheres; i++)
@@ -457,6 +461,8 @@ enum result scene_settle(struct scene *scene, struct error *err)
     scene_note_surfaces(scene);
     note_clear_names(scene);
     enum result result = count_clear(scene, err);
+    if (!result)
+        result = scene_note_unions(scene, err);
     return result ? result : note_choice(scene, scene->choice, err);
 }
 
@@ -488,6 +494,7 @@ void scene_free(struct scene *scene)
         buffer_free(&scene->files[i].source);
         token_list_free(&scene->files[i].list);
         free(scene->files[i].clear);
+        free(scene->files[i].object_unions);
     }
     free(scene->files);
     for (int i = 0; i < scene->found_count; i++)

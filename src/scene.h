@@ -23,6 +23,7 @@ struct scene_file {
     struct buffer source;
     struct token_list list;
     int *clear; /* for each token, how many before it name something that may be transparent */
+    bool *object_unions; /* for each token, whether it opens a union of nothing but objects, some perhaps transparent */
     struct scene_include *includes;
     int include_count;
 };
@@ -32,7 +33,6 @@ enum scene_limit {
     SCENE_LIMIT_EXPONENT,
     SCENE_LIMIT_REFLECTION_EXPONENT,
     SCENE_LIMIT_IRID,
-    SCENE_LIMIT_FOCAL_BLUR,
     SCENE_LIMIT_SAVED_PHOTONS,
     SCENE_LIMIT_SUBSURFACE,
     SCENE_LIMIT_MEDIA,
@@ -52,8 +52,9 @@ struct scene {
     int found_count;
     bool needs_discovery;  /* its includes or its assumed_gamma are known to POV-Ray only: scene_discover */
     struct scene_names names;
-    bool glossy;           /* some finish may be glossy, by Gloss or Gloss_Roughness or by the user's choice */
+    bool glossy;           /* some finish may be glossy, by a macro or by the user's choice */
     double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
+    bool painted;          /* some exponent may be painted, by Gloss_Map */
     bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
     bool mixes;            /* some texture may mix others: a map, an average, a blob, a mesh with a texture at each corner */
     bool radiosity;        /* light that a mirror throws onto other things may be computed */
@@ -63,7 +64,7 @@ struct scene {
     double version;        /* of the scene's first #version; 0: none */
     double working_gamma;  /* assumed_gamma, or GBUFFER_GAMMA_SRGB */
     int gammas;            /* how often an assumed_gamma is written anywhere */
-    bool focal_blur;        /* some camera has an aperture */
+    bool focal_blur;       /* some camera has an aperture */
     bool photons;           /* its global_settings may shoot photons */
     struct scene_place limits[SCENE_LIMIT_COUNT]; /* the first place that one is about */
     const char *atmosphere; /* "fog", "rainbow" or "media" where the scene has one at top level, else NULL */

@@ -106,14 +106,13 @@ static const struct scene_file *find_finish(const struct scene *scene, const str
 static void read_finish(const struct scene *scene, const struct scene_file *file, int brace, int depth,
                         struct finish *finish)
 {
-    static const char *const gloss[] = {"Gloss", "Gloss_Roughness", NULL};
     int inner;
     const struct scene_file *declared = find_finish(scene, file, brace + 1, &inner);
     if (declared && depth < MAX_INHERITANCE)
         read_finish(scene, declared, inner, depth + 1, finish);
-    bool glossy = finish->exponent && in_list(finish->exponent_file, finish->exponent, gloss);
+    bool glossy = finish->exponent && in_list(finish->exponent_file, finish->exponent, gloss_macros);
     for (int token = brace + 1; token < file->list.tokens[brace].match; token++) {
-        bool call = in_list(file, token, gloss) && is_mark(file, token + 1, "(") &&
+        bool call = in_list(file, token, gloss_macros) && is_mark(file, token + 1, "(") &&
                     file->list.tokens[token + 1].match > 0;
         if (is_word(file, token, "reflection") && file->list.tokens[token].parent == brace) {
             finish->reflection = token;
@@ -161,9 +160,16 @@ static enum result add_exponent(struct buffer *text, const struct finish *finish
         return buffer_add_text(text, "-", err);
     bool parentheses = is_mark(file, keyword + 1, "("), roughness = is_word(file, keyword, "roughness"),
          gloss_roughness = is_word(file, keyword, "Gloss_Roughness");
-    bool call = gloss_roughness || is_word(file, keyword, "Gloss");
+    bool call = in_list(file, keyword, gloss_macros);
     int first = keyword + 1 + call;
     int end = call && parentheses ? file->list.tokens[keyword + 1].match : value_end(file, first);
+    if (is_word(file, keyword, "Gloss_Map")) {
+        int low = argument_end(file, first, end) + 1, high = argument_end(file, low, end) + 1;
+        enum result result = add_source(text, file, low, high - 1, "", err);
+        if (!result)
+            result = buffer_add_text(text, "..", err);
+        return result ? result : add_source(text, file, high, end, "", err);
+    }
     if (file->list.tokens[first].kind == TOKEN_NUMBER && end == first + 1) {
         double value = number_value(file, first);
         double exponent = roughness ? 1 / (4 * value) : gloss_roughness ? lobe_phong_from_roughness(value) : value;

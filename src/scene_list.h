@@ -8,7 +8,8 @@
  * aligned and `-` where there is nothing; none but the last holds a space of its own:
  *   NAME        of the innermost #declare or #local around
  *   PLACE       file:line
- *   EXPONENT    that of Gloss() or Gloss_Roughness(), else that of --gloss auto; an expression as it is written
+ *   EXPONENT    that of Gloss() or Gloss_Roughness(), both ends of a Gloss_Map(), else that of --gloss auto; an
+ *               expression as it is written
  *   REFLECTION  as it is written
  * A finish that begins with a declared one has what that one has. Of included files, only finishes whose declared
  * names the scene uses, itself or through other names. *count is the number of finishes; without one nothing is

@@ -7,6 +7,7 @@
 
 #include "scene_discover.h"
 #include "scene_tokens.h"
+#include "scene_unions.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -46,6 +47,7 @@ static const struct rules copy_rules[SCENE_COPY_COUNT] = {
     [SCENE_COPY_MIRROR_SECOND] = {"mirror2", STATEMENTS_DROP, .marks = true, .pigments = true, .covers = true,
                                   .technical = true},
     [SCENE_COPY_REFLECTANCE] = {"reflectance", STATEMENTS_CAMERA, .marks = true, .covers = true},
+    [SCENE_COPY_REFLECTION] = {"reflection", STATEMENTS_DROP, .marks = true, .covers = true},
     [SCENE_COPY_CODED] = {"coded", STATEMENTS_CAMERA, .coded = true, .covers = true, .technical = true},
     [SCENE_COPY_DISCOVERY] = {"discovery", STATEMENTS_STAY, .lights = true, .discovery = true},
 };
@@ -72,8 +74,6 @@ struct writer {
     int end;         /* the token where the block ends that is being written; branches of a conditional may open it, too */
     int object_end;  /* the same of the last block that write_object wrote */
     int moved_pigment; /* the last that was written before its turn */
-    int asked_union; /* the last brace that `splits` was asked about, and what it said */
-    bool asked_splits;
     bool given;      /* in the declaration of a name that the user chose to be glossy */
     bool in_macro;
     bool in_default; /* in the braces of a #default */
@@ -324,6 +324,28 @@ static enum result inherit_state(struct writer *writer, int token, const char *m
     return result;
 }
 
+/* Whether the copy may have painted exponents, which are in the pigments of one of its passes. */
+static bool paints(const struct writer *writer)
+{
+    return writer->scene->painted && writer->rules->pigments;
+}
+
+static bool is_argument(const struct scene_file *file, int token)
+{
+    return is_mark(file, token - 1, "(") || is_mark(file, token - 1, ",");
+}
+
+/* Appends the source of some tokens without its comments and lines. */
+static enum result add_tokens(struct writer *writer, int first, int last, struct error *err)
+{
+    const struct token *tokens = writer->file->list.tokens;
+    enum result result = RESULT_OK;
+    for (int i = first; !result && i <= last; i++)
+        result = buffer_printf(&writer->out, err, " %.*s", (int)(tokens[i].end - tokens[i].begin),
+                               writer->file->source.data + tokens[i].begin);
+    return result;
+}
+
 static const char *const object_words[] = {
     "bicubic_patch", "blob",          "box",          "cone",            "cubic",         "cylinder", "difference",
     "disc",          "height_field",  "intersection", "isosurface",      "julia_fractal", "lathe",    "merge",
@@ -334,7 +356,7 @@ static const char *const object_words[] = {
 /* A pigment inside one of these is a pattern or a value, not what an object looks like. */
 static const char *const pattern_words[] = {"function", "pigment",  "pigment_map", "pigment_pattern", "normal",
                                             "normal_map", "slope_map", "density",   "density_map",     "sky_sphere",
-                                            "camera",   NULL};
+                                            "camera",   "finish",  NULL};
 
 /* What a block that describes a surface may be part of: then it stays with that. */
 static const char *const surface_words[] = {"texture", "material", "texture_map", NULL};
@@ -461,9 +483,8 @@ static enum result move_cover(struct writer *writer, int token, int last, struct
         return RESULT_OK;
     writer->moved_pigment = pigment;
     enum result result = insert_before(writer, token, "#declare povgloss_cover =", err);
-    for (int i = pigment; !result && i <= end; i++)
-        result = buffer_printf(&writer->out, err, " %.*s", (int)(file->list.tokens[i].end - file->list.tokens[i].begin),
-                               file->source.data + file->list.tokens[i].begin);
+    if (!result)
+        result = add_tokens(writer, pigment, end, err);
     return result ? result : add_cover(writer, pigment, end, err);
 }
 
@@ -631,7 +652,7 @@ static enum result take_states(struct writer *writer, int directive, struct erro
 {
     const struct scene_file *file = writer->file;
     int macro = directive + 1, position = 0;
-    if (!is_directive(file, directive, "macro") || !has_fact(file, macro, NAME_SURFACE_MACRO))
+    if (!is_directive(file, directive, "macro") || !has_fact(file, macro, NAME_SURFACE_MACRO) || !is_call(file, macro))
         return RESULT_OK;
     int last = file->list.tokens[macro + 1].match;
     enum result result = insert_before(writer, last, "", err);
@@ -688,25 +709,28 @@ static bool makes_object(const struct scene *scene, const struct scene_name *nam
     return false;
 }
 
-/* `#declare T = Made()`, where textures, finishes or materials begin with T. */
+/* `#declare T = Made()`, where textures, finishes or materials begin with T, or where T may be a map of exponents. */
 static enum result declare_made(struct writer *writer, int directive, int *next, struct error *err)
 {
     const struct scene_file *file = writer->file;
     int name = declared_name(file, directive), value = name < 0 ? -1 : after_subscripts(file, name + 1) + 1;
-    if (name < 0 || !is_mark(file, value - 1, "=") || !has_fact(file, name, NAME_SURFACE) ||
-        !has_fact(file, value, NAME_DECLARED) || !is_call(file, value) ||
-        makes_object(writer->scene, name_at(file, value)))
+    bool surface = name >= 0 && has_fact(file, name, NAME_SURFACE);
+    if (name < 0 || !is_mark(file, value - 1, "=") || !has_fact(file, value, NAME_DECLARED) || !is_call(file, value))
         return RESULT_OK;
     int last = file->list.tokens[value + 1].match;
-    enum result result = insert_before(
-        writer, directive, "#declare povgloss_last = povgloss_none; #declare povgloss_value = povgloss_value + 1; ", err);
+    bool map = paints(writer) && is_mark(file, last + 1, ";");
+    if ((!surface && !map) || makes_object(writer->scene, name_at(file, value)))
+        return RESULT_OK;
+    enum result result = insert_before(writer, directive, surface ? "#declare povgloss_last = povgloss_none; " : "", err);
+    if (!result)
+        result = buffer_add_text(&writer->out, "#declare povgloss_value = povgloss_value + 1; ", err);
     if (!result)
         result = write_tokens(writer, value, last + 1, err);
     if (!result)
         result = insert_after(writer, last + is_mark(file, last + 1, ";"), " #declare povgloss_value = povgloss_value - 1; ",
                               err);
     *next = last + 1 + is_mark(file, last + 1, ";");
-    return result ? result : remember(writer, name, last, err);
+    return result || !surface ? result : remember(writer, name, last, err);
 }
 
 /* A material in a copy without textures: its interior is kept for the object, which may be clear. */
@@ -792,33 +816,8 @@ static enum result add_part_counts(struct writer *writer, int token, struct erro
         result = buffer_printf(&writer->out, err, " #ifdef (povgloss_holds_%d) povgloss_add(povgloss_holds_%d) #else ", part,
                                part);
     if (!result)
-        result = buffer_add_text(&writer->out, "povgloss_add(<0, 0, 1>) ", err);
+        result = buffer_add_text(&writer->out, "povgloss_add(<0, 0, 1, 0>) ", err);
     return result || !known ? result : buffer_add_text(&writer->out, "#end ", err);
-}
-
-/* Whether all that the union at `brace` holds is blocks of objects, which have their own surfaces. */
-static bool holds_objects_only(const struct writer *writer, int brace)
-{
-    static const char *const unknown[] = {"include", "macro", "default", NULL};
-    const struct scene_file *file = writer->file;
-    int last = file->list.tokens[brace].match, i = brace + 1;
-    while (i < last) {
-        if (file->list.tokens[i].kind == TOKEN_DIRECTIVE) {
-            for (int word = 0; unknown[word]; word++)
-                if (is_directive(file, i, unknown[word]))
-                    return false;
-            i = directive_end(file, i, last);
-        } else if (opens_block(file, i)) {
-            int end = file->list.tokens[i + 1].match;
-            if (in_list(file, i, texture_words) || file->list.tokens[end].match != i + 1)
-                return false;
-            i = end + 1;
-        } else if (is_mark(file, i + 1, "(") && has_fact(file, i, NAME_DECLARED))
-            return false;
-        else
-            i++;
-    }
-    return true;
 }
 
 /* Whether the object between these tokens may be transparent. */
@@ -827,30 +826,25 @@ static bool may_be_placed(const struct writer *writer, int first, int last)
     return writer->scene->clear_default || tracks(writer, first, last);
 }
 
-/* Whether the objects in these braces are placed one by one: those of a union of the top level, or in such a union, that may
- * hold something transparent. */
-static bool splits(struct writer *writer, int brace)
+/* Whether the objects in these braces are placed one by one. */
+static bool splits(const struct writer *writer, int brace)
 {
-    const struct scene_file *file = writer->file;
-    if (brace == writer->asked_union)
-        return writer->asked_splits;
-    if (brace <= 0 || !is_word(file, brace - 1, "union") || writer->in_macro || file->list.tokens[brace].match < 0 ||
-        is_mark(file, brace - 2, "=") || is_mark(file, brace - 2, "(") || is_mark(file, brace - 2, ","))
-        return false;
-    int last = file->list.tokens[brace].match, parent = file->list.tokens[brace].parent;
-    bool found = file->list.tokens[last].match == brace && may_be_placed(writer, brace + 1, last) &&
-                 holds_objects_only(writer, brace) && (parent < 0 || splits(writer, parent));
-    writer->asked_union = brace;
-    return writer->asked_splits = found;
+    return writer->rules->places && union_splits(writer->file, brace, writer->in_macro);
 }
 
-/* A union whose objects are placed one by one is itself in both copies. */
+/* Whether the block at `token` stands in no other and is no value. */
+static bool is_at_top(const struct writer *writer, int token)
+{
+    return writer->file->list.tokens[token].parent < 0 && !writer->in_macro && !is_mark(writer->file, token - 1, "=");
+}
+
+/* A union whose objects are placed one by one is itself in both copies, and so is what has its name. */
 static enum result write_split(struct writer *writer, int token, int last, struct error *err)
 {
-    bool top = writer->file->list.tokens[token].parent < 0;
+    bool top = is_at_top(writer, token);
     enum result result = insert_before(writer, token, top ? "povgloss_leave_copy() " : "", err);
     if (!result)
-        result = insert_after(writer, token + 1, " povgloss_nothing() ", err);
+        result = insert_after(writer, token + 1, is_word(writer->file, token, "union") ? " povgloss_nothing() " : "", err);
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     return result ? result : insert_after(writer, last, top ? " povgloss_enter_copy() " : "", err);
@@ -907,6 +901,45 @@ static bool keeps_state(const struct writer *writer, int name)
     return has_fact(writer->file, name, element ? NAME_SURFACE_ARRAY : NAME_DECLARED);
 }
 
+/* A pigment that isn't declared by a name, in a copy where nothing opaque has colours. Where exponents may be painted, one
+ * that may become a map stays, as the argument or, by povgloss_value, as the value of a macro, and over a map others don't
+ * count. */
+static enum result write_pigment(struct writer *writer, int token, int last, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    bool of_macro = paints(writer) && writer->in_macro && file->list.tokens[token].parent < 0;
+    bool over = paints(writer) && (of_macro || in_texture(file, token) || surface_before(writer, token) >= 0 ||
+                                   sibling_before(file, token, "finish") >= 0);
+    if (paints(writer) && (is_argument(file, token) || fills_array(file, token)))
+        return copy_to(writer, file->list.tokens[last].end, err);
+    enum result result = of_macro ? insert_before(writer, token, "#if (povgloss_value > 0)", err) : RESULT_OK;
+    if (!result && of_macro)
+        result = add_tokens(writer, token, last, err);
+    if (!result && of_macro)
+        result = buffer_add_text(&writer->out, " #else ", err);
+    if (!result && tracks(writer, token + 2, last) && !fills_array(file, token) && !in_triangle(file, token))
+        result = write_cover(writer, token, last, err);
+    else if (!result)
+        result = replace_block(writer, token, last, over ? "povgloss_repaint() " : "pigment { povgloss_pigment }", err);
+    return result || !of_macro ? result : insert_after(writer, last, " #end ", err);
+}
+
+/* `M(N(3))`, at N, where exponents may be painted: what N makes is a value. */
+static enum result write_argument(struct writer *writer, int token, int *next, struct error *err)
+{
+    const struct scene_file *file = writer->file;
+    if (!is_argument(file, token) || !is_call(file, token) || !has_fact(file, token, NAME_DECLARED))
+        return RESULT_OK;
+    int last = file->list.tokens[token + 1].match;
+    if (!is_mark(file, last + 1, ",") && !is_mark(file, last + 1, ")"))
+        return RESULT_OK;
+    enum result result = insert_before(writer, token, "#declare povgloss_value = povgloss_value + 1; ", err);
+    if (!result)
+        result = write_tokens(writer, token + 1, last + 1, err);
+    *next = last + 1;
+    return result ? result : insert_after(writer, last, " #declare povgloss_value = povgloss_value - 1; ", err);
+}
+
 /* A finish, texture or material; `name` is that of its declaration, or -1. */
 static enum result write_marked(struct writer *writer, int token, int last, int name, struct error *err)
 {
@@ -924,6 +957,8 @@ static enum result write_marked(struct writer *writer, int token, int last, int 
         result = finish     ? write_finish(writer, token, last, writer->in_default || keeps_state(writer, name), err)
                  : material ? write_material(writer, token, last, err)
                             : write_texture(writer, token, last, is_layer(file, token), err);
+    if (!result && finish && name < 0 && !writer->in_default && !is_argument(file, token) && paints(writer))
+        result = insert_after(writer, last, " povgloss_paint() ", err);
     if (!result && choice) {
         writer->given = false;
         result = insert_before(writer, last, " #declare povgloss_given = -1; ", err);
@@ -1151,7 +1186,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     const struct scene_file *file = writer->file;
     const struct rules *rules = writer->rules;
     int brace = token + 1, last = file->list.tokens[brace].match;
-    bool argument = is_mark(file, token - 1, "(") || is_mark(file, token - 1, ",");
+    bool argument = is_argument(file, token);
     bool value = is_mark(file, token - 1, "=") || (token == writer->value_end && is_word(file, token, "texture"));
     if (is_mark(file, token - 1, "="))
         writer->value_name = before_subscripts(file, token - 2);
@@ -1172,7 +1207,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     bool named = value && has_fact(file, writer->value_name, NAME_DECLARED) &&
                  !is_mark(file, writer->value_name + 1, "[");
     bool placed = !value && file->list.tokens[token].parent < 0 && !argument && may_be_placed(writer, token + 2, last);
-    if (rules->places && !value && splits(writer, brace))
+    if (splits(writer, brace) || (rules->places && is_split_object(file, token)))
         return write_split(writer, token, last, err);
     placed |= !value && splits(writer, file->list.tokens[token].parent);
     if (rules->places && (named || placed) && in_list(file, token, object_words))
@@ -1197,10 +1232,10 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         enum result result = write_marked(writer, token, last, value ? writer->value_name : -1, err);
         return result || !value ? result : remember(writer, writer->value_name, last, err);
     }
+    if (rules->pigments && pigment && !value)
+        return write_pigment(writer, token, last, err);
     if (pigment && !value && !filling && tracks(writer, token + 2, last) && !in_triangle(file, token))
         return write_cover(writer, token, last, err);
-    if (rules->pigments && pigment && !value)
-        return replace_block(writer, token, last, "pigment { povgloss_pigment }", err);
     if (rules->coded && is_word(file, token, "texture_list"))
         return write_texture_list(writer, token, last, err);
     if (rules->coded && is_word(file, token, "face_indices"))
@@ -1375,6 +1410,8 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
                                       " #error \"povgloss: this block isn't closed in the same file: close its brace "
                                       "there\\n\" ",
                                       err);
+            if (!result && !next && paints(writer))
+                result = write_argument(writer, i, &next, err);
             if (!result && !next && writer->rules->marks)
                 result = give_states(writer, i, &next, err);
             if (!result && !next && writer->rules->marks && !fills_array(file, i))
@@ -1415,8 +1452,7 @@ enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, co
         const struct scene_file *file = &scene->files[i];
         struct writer writer = {
             .scene = scene, .file = file, .rules = &copy_rules[copy], .copy = copy,
-            .value_end = -1, .end = file->list.count, .object_end = -1, .moved_pigment = -1,
-            .asked_union = -1};
+            .value_end = -1, .end = file->list.count, .object_end = -1, .moved_pigment = -1};
         /* POV-Ray takes a byte order mark in a scene but not in an include file, which every copy is. */
         if (file->source.size >= 3 && !memcmp(file->source.data, "\xEF\xBB\xBF", 3))
             writer.at = 3;

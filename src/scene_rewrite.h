@@ -19,6 +19,7 @@ enum scene_copy {
     SCENE_COPY_MIRROR,      /* opaque pigments of the pass, finishes marked, inside a union, with the camera */
     SCENE_COPY_MIRROR_SECOND, /* the same without camera and global settings */
     SCENE_COPY_REFLECTANCE, /* colours made opaque, finishes marked, inside a union, with the camera */
+    SCENE_COPY_REFLECTION,  /* the same without camera and global settings */
     SCENE_COPY_CODED,       /* no textures at all: everything inherits that of the union around; with the camera */
     SCENE_COPY_DISCOVERY,   /* the scene itself; writes what it includes and its assumed_gamma to SCENE_DISCOVERY_LOG */
     SCENE_COPY_COUNT,

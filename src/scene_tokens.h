@@ -11,6 +11,9 @@
 /* What may follow the = of a name that can be made glossy. */
 static const char *const glossy_words[] = {"finish", "texture", "material", NULL};
 
+/* The macros that make a finish glossy. */
+static const char *const gloss_macros[] = {"Gloss", "Gloss_Roughness", "Gloss_Map", NULL};
+
 /* The items of a finish whose values are the lobe of a highlight. */
 static const char *const highlight_words[] = {"phong_size", "roughness", NULL};
 

@@ -74,4 +74,19 @@ whole_scene "camera and settings in an include file inside a macro" << 'POV'
 #end
 All(1)
 POV
+whole_scene "with focal blur" << 'POV'
+#version 3.7;
+global_settings { assumed_gamma 1.5 }
+#declare Own_Camera = 1;
+#include "stage.inc"
+camera {
+  location <0.3, 2.2, -6> right x*4/3 angle 48 look_at <0, 0.8, 0>
+  aperture 0.3 focal_point <0, 0.5, -1> blur_samples 80 variance 0
+}
+#declare Mirror = texture { pigment { rgb <0.8, 0.5, 0.2> } finish { reflection { 0.6 metallic } diffuse 0.2 } };
+object { Floor pigment { checker rgb 0.3 rgb 0.5 } finish { reflection 0.3 Gloss(100) } }
+object { Ball texture { Mirror finish { Gloss(50) } } }
+sphere { <1.5, 0.6, -1>, 0.6 texture { Mirror } }
+sphere { <-1.6, 0.4, -2>, 0.4 pigment { rgbf <0.9, 1, 0.9, 0.9> } finish { reflection 0.1 } interior { ior 1.3 } }
+POV
 end_of_scenes

@@ -102,7 +102,7 @@ check "glossfilter without arguments" refuses glossfilter "no passes file"
 check "glossfilter without an output" refuses glossfilter "no output" passes.exr
 check "glossfilter --check without a passes file" refuses glossfilter "no passes file" --check
 check "glossfilter: --map without a value" refuses glossfilter "--map needs a value" passes.exr -o x.exr --map
-check "glossfilter with two passes files" refuses glossfilter "b.exr" passes.exr b.exr -o x.exr
+check "glossfilter to check two passes files" refuses glossfilter "b.exr" passes.exr b.exr --check
 check "glossfilter with an unknown option" refuses glossfilter "--nonsense: unknown option" passes.exr -o x.exr --nonsense
 check "glossfilter with an unknown short option" refuses glossfilter "-z: unknown option" passes.exr -o x.exr -z
 

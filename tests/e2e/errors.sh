@@ -280,6 +280,15 @@ head -c 6 passes.exr > six-bytes.exr
 : > nothing.exr
 check "a passes file without endpoints" glossfilter_fails "no-endpoint.exr: has no channel endpoint.X" no-endpoint.exr
 check "a passes file in DWAA" glossfilter_fails "--compression zip" dwaa.exr
+# A system that says that little memory is free; its message has both figures.
+printf 'MemTotal: 9 kB\nMemAvailable: 100 kB\nSwapFree: 20 kB\n' > meminfo
+little_memory=(bwrap --dev-bind / / --bind "$scratch/meminfo" /proc/meminfo)
+if "${little_memory[@]}" true 2> reason; then
+    check "passes that memory can't hold" fails 3 " GB are needed, and 0.00012 GB are free" "${little_memory[@]}" \
+        "$bin/glossfilter" passes.exr -o output/picture.exr
+else
+    check "passes that memory can't hold # SKIP $(head -n 1 reason)" true
+fi
 check "half a passes file" glossfilter_fails "half.exr: " half.exr
 check "six bytes of a passes file" glossfilter_fails "six-bytes.exr: " six-bytes.exr
 check "an empty passes file" glossfilter_fails "nothing.exr: " nothing.exr

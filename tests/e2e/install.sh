@@ -13,6 +13,7 @@ make=(make --no-print-directory "CC=${CC:-gcc}" "PREFIX=$prefix")
 files='bin/glossfilter bin/povgloss include/gloss.h lib/libgloss.a lib/pkgconfig/libgloss.pc lib/povgloss/reads.so
 share/bash-completion/completions/glossfilter share/bash-completion/completions/povgloss share/man/man1/glossfilter.1
 share/man/man1/povgloss.1 share/man/man5/povgloss-passes.5 share/povgloss/include/povgloss.inc'
+if pkg-config --exists sdl2; then files=${files/reads.so/reads.so lib/povgloss/view}; fi
 installs() {
     "${make[@]}" "DESTDIR=$tree" install || return 1
     [ "$(cd "$installed" && find . -type f -printf '%P\n' | sort)" = "$(tr ' ' '\n' <<< "$files")" ] ||
@@ -21,7 +22,7 @@ installs() {
 check "install__an_empty_tree__these_files" installs
 check "install__again__the_same" installs
 on_path() {
-    grep -rlF "$1" "$installed" | grep -v '/bin/\|\.a$\|\.so$'
+    grep -rlF "$1" "$installed" | grep -v '/bin/\|\.a$\|\.so$\|/view$'
 }
 no_path_of_the_build() {
     local found
@@ -149,8 +150,11 @@ cd "$scratch" || exit 1
 
 uninstalls() {
     touch "$installed/bin/another"
+    mkdir -p "$installed/share/man/man1" && touch "$installed/share/man/man1/another.1"
     (cd "$root" && "${make[@]}" "DESTDIR=$tree" uninstall) || return 1
-    [ "$(find "$tree" -type f)" = "$installed/bin/another" ] && ! find "$tree" -name '*povgloss*' | grep .
+    (cd "$installed" && find . | LC_ALL=C sort) > left
+    printf '%s\n' . ./bin ./bin/another ./include ./lib ./share ./share/man ./share/man/man1 ./share/man/man1/another.1 |
+        diff - left
 }
 check "uninstall__all__and_nothing_else" uninstalls
 again() {

@@ -4,18 +4,19 @@
 . tests/e2e/lib.sh
 
 rows='error preload_reads
-interrupt cpu mem lobe gamma
+interrupt cpu mem lobe gamma timings
 image gbuffer weights bands own_files input_file output_file frames
-exr_io png_io position_code eye interpolate filter_kernel child scene_lexer scene_names gloss_choice ini_file povray_switches work_folder depfile
-filter_level
-filter_cells
-filter_sparse
-channels passes_file passes_check image_file filter gloss compose probe picture_check povray scene scene_tokens scene_discover scene_surfaces
+exr_io png_io control_variate position_code eye camera interpolate filter_kernel sheet child scene_lexer scene_names gloss_choice ini_file povray_switches work_folder depfile
+channels picture passes_file passes_check image_file filter filter_level filter_cells filter_sparse gloss compose probe picture_check povray sandbox scene scene_tokens scene_discover scene_surfaces scene_unions
 scene_rewrite scene_list
 pass_scene pass_images reads probe_file
 passes
 cli
-main_glossfilter main_povgloss'
+command
+lobe_rays
+draw
+measure
+main_glossfilter main_povgloss main_view'
 
 row_of() {
     printf '%s\n' "$rows" | grep -nwE "$1" | cut -d: -f1

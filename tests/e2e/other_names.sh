@@ -176,6 +176,21 @@ check "check__exponents_below_0__told" spoils 3 "have an exponent below 0 or NaN
 check "check__w_below_0__told" spoils 3 "whose W is below 0" endpoint.W --mulc -1
 check "check__nothing_glossy__told" spoils 3 "nothing is glossy" phong.V --mulc 0
 check "check__positions_of_another_space__told" spoils 3 "off the ray through their pixel's centre" P.X --addc 3
+# warns TEXT CHANNEL EXPRESSION...: filtering says it in one line, unless it is asked to be quiet.
+warns() {
+    local text=$1
+    shift
+    spoiled "$@"
+    run "$glossfilter" spoiled.exr -o x.exr
+    expect_status 0 && expect_message "$text" && expect_one_line glossfilter || return 1
+    run "$glossfilter" spoiled.exr --quiet -o x.exr
+    [ ! -s "$scratch/err" ]
+}
+glossy_pixels=$("$glossfilter" --check own.exr | awk '$1 == "glossy" { print $2 }')
+check "filter__radiance_not_finite__counted" warns "spoiled.exr: $glossy_pixels glossy pixels are left out" \
+    specular.G --addc 1 --mulc 1e38 --mulc 1e38
+check "filter__base_not_finite__counted" warns "spoiled.exr: base or reflectance isn't finite at " \
+    G --addc 1 --mulc 1e38 --mulc 1e38
 long_directions() {
     oiiotool own.exr --ch "$endpoint" --mulc 3,3,3,1 -o long.exr
     oiiotool own.exr --ch "${own%%,endpoint*}",phong.V long.exr --chappend --ch "$own" -d float -o spoiled.exr

@@ -172,7 +172,7 @@ named() {
     expect_nothing_left
 }
 # shellcheck disable=SC2016 # a name with a dollar sign
-for name in 'two words' "it's" 'Grüße 日本' '-dash' '--dashes' '+plus' 'blanks  ; $x #,@~&%s UPPER'; do
+for name in 'two words' "it's" 'Grüße 日本' '-dash' '--dashes' '+plus' 'blanks  ; $x #,@~&%s UPPER' '$(touch ran) `touch ran`|touch ran'; do
     check "files named <$name>" named "$name"
 done
 from_elsewhere() {
@@ -187,6 +187,22 @@ named_quote() {
     "$povgloss" render 'quo"te/sc"ene.pov' "$library" "${size[@]}" --quiet -o 'quo"te/out".png' && cmp 'quo"te/out".png' file.png
 }
 check "files named with double quotes" named_quote
+
+# POV-Ray's strings end at a newline, so that nothing is included by this name.
+named_newline() {
+    local folder=$'-new\n$(touch ran)\nline'
+    mkdir -- "$folder"
+    cp scene.pov "./$folder/$folder.pov"
+    "$povgloss" render "./$folder/$folder.pov" "$library" "+L./$folder" "${size[@]}" --quiet --keep "./$folder/kept" \
+        -o "./$folder/$folder.png" && cmp -- "./$folder/$folder.png" file.png
+}
+check "files named with newlines" named_newline
+no_shell_ran() {
+    local ran
+    ran=$(find "$scratch" -name ran)
+    [ -z "$ran" ] || fail "a shell ran: $ran"
+}
+check "none of these names is a command" no_shell_ran
 
 temporary_folder() {
     mkdir 'tmp = "x" é'

@@ -221,6 +221,13 @@ object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }
 sphere { <0.5, 1.2, 3>, 0.9 pigment { rgbt 1 } hollow interior { media { emission <0.4, 0.2, 0> density { spherical
   scale 0.9 translate <0.5, 1.2, 3> } } } }
 POV
+scene "a map of glossy textures that reflect unlike, and one that doesn't" << 'POV'
+#declare Bumpy = texture { pigment { rgb <0.9, 0.6, 0.2> } finish { reflection { 0.7 metallic } Gloss(100) } normal { bumps 0.1 scale 0.2 } };
+#declare Dim = texture { pigment { rgb 0.3 } finish { reflection 0.1 Gloss(100) } };
+#declare Plain = texture { pigment { rgb 0.2 } finish { reflection 0.3 } };
+object { Floor texture { gradient x texture_map { [0 Dim] [0.5 Bumpy] [0.8 Plain] [1 Dim] } scale 1.3 } }
+sphere { <0, 0.7, -0.5>, 0.7 texture { average texture_map { [1 Bumpy] [2 Dim] } } }
+POV
 scene "a clear box around everything" << 'POV'
 box { -30, 30 pigment { rgbt 1 } hollow }
 object { Floor pigment { rgb 0.2 } finish { reflection 0.5 Gloss(100) } }

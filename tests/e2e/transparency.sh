@@ -63,6 +63,13 @@ object { Ball pigment { rgb <0.5, 0.2, 0.1> } finish { reflection 0.5 Gloss(50) 
 sphere { <1.6, 0.8, -1.6>, 0.5 pigment { rgbt 0.9 } finish { reflection 0.1 } interior { ior 1.3 } hollow }
 box { <-2, 0.2, -1.5>, <-1, 1.5, -1.4> pigment { rgbt <0.8, 1, 0.8, 0.7> } }
 POV
+scene "solid glass in fog, beside hollow things without an interior" << 'POV'
+fog { distance 8 rgb <0.6, 0.7, 0.9> }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
+#macro Put(Thing) object { Thing scale 1.2 } #end
+Put(sphere { <-0.8, 0.8, -1>, 0.8 pigment { rgbf <0.9, 1, 0.9, 0.9> } finish { reflection 0.2 } interior { ior 1.3 } no_reflection })
+Put(box { <0.3, 0.1, -1.3>, <1.6, 1.5, -1> hollow pigment { rgbt 0.7 } })
+POV
 whole_scene "fog in a space that isn't linear" << 'POV'
 #version 3.7;
 global_settings { assumed_gamma 2.2 }
@@ -80,6 +87,14 @@ POV
 scene "media before a floor and a ball" << 'POV'
 media { absorption <0.1, 0.06, 0.03> emission <0.02, 0.03, 0.05> method 3 intervals 1 samples 30 jitter 0 }
 sphere { 0, 30 hollow pigment { rgb 0.5 } }
+object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
+object { Ball pigment { rgb <0.5, 0.2, 0.1> } finish { reflection 0.5 Gloss(50) } }
+POV
+scene "the camera in an object with media" << 'POV'
+sphere {
+  0, 20 hollow pigment { rgbt 1 }
+  interior { media { absorption <0.1, 0.06, 0.03> emission <0.02, 0.03, 0.05> method 3 intervals 1 samples 30 jitter 0 } }
+}
 object { Floor pigment { rgb 0.2 } finish { reflection 0.4 Gloss(100) } }
 object { Ball pigment { rgb <0.5, 0.2, 0.1> } finish { reflection 0.5 Gloss(50) } }
 POV
@@ -113,6 +128,27 @@ union {
   box { <-2, 0, 0.8>, <-0.4, 0.5, 1> pigment { rgb y } }
   object { Ball scale 0.4 translate <0.9, 0, 0.4> pigment { rgb 0.2 } finish { reflection 0.5 Gloss(50) } }
   rotate y*20
+}
+POV
+scene "unions of such things by names and macros" << 'POV'
+object { Floor pigment { rgb 0.3 } finish { reflection 0.2 } }
+#macro Gold() texture { pigment { rgb <0.5, 0.3, 0.1> } finish { reflection 0.5 Gloss(50) } } #end
+#declare Things = union {
+  sphere { <0, 0.5, 0>, 0.5 pigment { rgbf <0.9, 1, 0.9, 0.9> } finish { reflection 0.2 } interior { ior 1.5 } }
+  union { sphere { <-0.8, 0.2, -0.9>, 0.2 } cone { <-0.8, 0.4, -0.9>, 0.1, <-0.8, 0.7, -0.9>, 0 } Gold() }
+  box { <0.5, 0, 0.3>, <0.9, 0.5, 0.7> pigment { rgb y } }
+};
+#macro Pair(Ior)
+  union {
+    object { Things translate z }
+    #local Tall = cylinder { 0, y*1.5, 0.2 };
+    object { Tall texture { pigment { rgbt 0.8 } finish { reflection 0.1 } } interior { ior Ior } }
+  }
+#end
+object { Things scale 1.3 translate <1.3, 0, -1> }
+union {
+  object { Pair(1.3) translate -x*0.4 }
+  object { Things rotate y*70 translate -x*1.7 }
 }
 POV
 gloss=(--gloss all=300)

@@ -34,8 +34,6 @@ check "reflection_exponent" says '6: the reflection_exponent of a glossy finish 
 check "irid" says "6: irid in a glossy finish doesn't tint its reflection" '' '' "irid { 0.3 thickness 0.5 } $glossy"
 check "irid in a finish that reflects nothing" says_nothing '' '' "$glossy" \
     'sphere { y, 1 pigment { rgb 1 } finish { irid { 0.3 } } }'
-check "focal blur" says '4: focal blur leaves glossy reflections as sharp as they are' \
-    '' 'aperture 0.2 blur_samples 4 focal_point 0' "$glossy"
 check "photons that are saved" says "3: photons that the scene saves aren't reflected by glossy surfaces" \
     'photons { count 100 save_file "mine.ph" }' '' "$glossy"
 check "photons" says_nothing 'photons { count 100 }' '' "$glossy" 'sphere { y, 1 pigment { rgb 1 } photons { target } }'
@@ -45,14 +43,23 @@ check "subsurface light and a plain mirror" says \
     '3: with subsurface light, glossy surfaces that are seen in a mirror reflect nothing there' "$lit" '' "$glossy" \
     'sphere { y, 1 pigment { rgb 1 } finish { reflection 0.2 } }'
 check "media in an object" says \
-    '7: media in an object neither dim nor tint the reflection of a glossy surface in or behind it' '' '' "$glossy" \
+    "7: media in an object that the camera is outside of neither dim nor tint the reflection of a glossy surface in or \
+behind it" '' '' "$glossy" \
     'sphere { y, 1 hollow pigment { rgbt 1 } interior { media { emission 0.1 } } }'
 glass='pigment { rgbt 0.9 } finish { reflection 0.1 }'
-check "glass and gloss in one object" says "7: this object holds something transparent and something glossy: \
-reflections inside the transparent part are left out; make them objects of their own" '' '' "$glossy" \
-    "difference { sphere { y, 1 $glass } box { 0, 2 pigment { rgb 1 } finish { $glossy } } }"
-check "glass and gloss in one union" says_nothing '' '' "$glossy" \
-    "union { sphere { y, 1 $glass } box { 0, 2 pigment { rgb 1 } finish { $glossy } } }"
-check "two of them" says "6: irid in a glossy finish doesn't tint its reflection; scene.pov:4: focal blur leaves glossy reflections as sharp \
-as they are" '' 'aperture 0.2 blur_samples 4 focal_point 0' "irid { 0.3 } $glossy"
+shows="7: a glossy surface reflects nothing where it is seen by a reflection in this object and then through something \
+transparent"
+mixed="7: this object holds something transparent and something glossy: reflections inside the transparent part are left out; \
+make them objects of their own; scene.pov:$shows"
+gold="box { 0, 2 pigment { rgb 1 } finish { $glossy } }"
+check "glass and gloss in one object" says "$mixed" '' '' "$glossy" "difference { sphere { y, 1 $glass } $gold }"
+check "glass and gloss in a union with bounds" says "$mixed" '' '' "$glossy" \
+    "union { sphere { y, 1 $glass } $gold bounded_by { box { -3, 3 } } }"
+check "glass and gloss in a declared union that is given a texture" says "$mixed" '' '' "$glossy" \
+    "#declare U = union { sphere { y, 1 $glass } $gold } object { U pigment { rgb x } }"
+check "glass and gloss in one union" says "$shows" '' '' "$glossy" "union { sphere { y, 1 $glass } $gold }"
+check "glass that mirrors nothing" says_nothing '' '' "$glossy" \
+    'sphere { y, 1 pigment { rgbt 0.9 } } box { 0, 2 pigment { rgb 1 } finish { reflection 0.1 } }'
+check "two of them" says "6: the exponent of a glossy reflection counts as 1; scene.pov:6: irid in a glossy finish doesn't tint \
+its reflection" '' '' 'reflection { 0.5 exponent 2 } irid { 0.3 } Gloss(50)'
 end_of_tests

@@ -1,9 +1,6 @@
 /* The input is a command line, one argument a line, and the content of "fuzz.ini", each ended by NUL. The program is
  * povgloss, or glossfilter where the first line says so. Nothing is rendered. */
-int povgloss_main(int argc, char **argv);
-#define main povgloss_main
-#include "../../src/main_povgloss.c"
-#undef main
+#include "command.h"
 
 #include "fuzz_support.h"
 
@@ -20,11 +17,10 @@ static void parse_povgloss(int argc, char **argv)
     struct command command = {0};
     struct povray_switches switches = {0};
     struct error err = {0};
-    enum result result = parse(argc, argv, &command, &switches, &err);
+    enum result result = command_parse(argc, argv, &command, &switches, &err);
     FUZZ_REQUIRE(result == RESULT_OK || *err.text);
-    free(command.path);
+    command_free(&command);
     povray_switches_free(&switches);
-    gloss_choice_free(&command.passes.gloss);
 }
 
 static void parse_glossfilter(int argc, char **argv)

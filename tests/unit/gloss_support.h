@@ -3,6 +3,7 @@
 #define POVGLOSS_GLOSS_SUPPORT_H
 
 #include "filter.h"
+#include "lobe.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,6 +33,20 @@ UNUSED static void assert_near_at(double a, double b, double tolerance, const ch
         if ((result) != RESULT_OK)                                                                                     \
             fail_msg("%s", (err).text);                                                                                \
     } while (0)
+
+UNUSED static void filter_run(const struct gbuffer *gbuffer, const struct filter_options *options, struct image *glossy,
+                              struct image *measure)
+{
+    struct error err;
+    assert_ok(filter_glossy(gbuffer, options, glossy, measure, &err), err);
+}
+
+UNUSED static bool image_same(const struct image *a, const struct image *b)
+{
+    size_t count = a->stride * (size_t)a->height * (size_t)a->channels;
+    return a->width == b->width && a->height == b->height && a->channels == b->channels &&
+           memcmp(a->pixels, b->pixels, count * sizeof *a->pixels) == 0;
+}
 
 /* A glossy floor y = 0 (and, optionally, a glossy ball on it) seen by a pinhole camera under a sky, with two spheres
  * and a checkered wall. Lengths times `scale`; `bounded` closes the scene, so that no mirrored ray misses; a view
@@ -105,6 +120,27 @@ UNUSED static void gbuffer_alloc(struct gbuffer *gbuffer, int width, int height)
     assert_ok(image_alloc(&gbuffer->position, width, height, 3, &err), err);
     assert_ok(image_alloc(&gbuffer->endpoint, width, height, 4, &err), err);
     assert_ok(image_alloc(&gbuffer->phong, width, height, 1, &err), err);
+}
+
+/* A view angle for scene_draw at which a lobe is some tens of pixels wide, however narrow it is. */
+UNUSED static double scene_view_angle(double phong)
+{
+    return fmin(1.1, 6 * lobe_half_angle(phong, 0.99, 1.5));
+}
+
+/* Pixels of a floor that all see the same direction: every weight is 1. */
+UNUSED static void flat_gbuffer(struct gbuffer *gbuffer, int width, int height, float phong)
+{
+    gbuffer_alloc(gbuffer, width, height);
+    gbuffer->has_eye = true;
+    gbuffer->view_angle = 1;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            image_row(&gbuffer->position, 0, y)[x] = (float)x;
+            image_row(&gbuffer->position, 2, y)[x] = (float)y;
+            image_row(&gbuffer->endpoint, 1, y)[x] = 1;
+            image_row(&gbuffer->phong, 0, y)[x] = phong;
+        }
 }
 
 UNUSED static void scene_draw(const struct scene *scene, int width, int height, float phong, struct gbuffer *gbuffer)
@@ -327,73 +363,99 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, double rad
     return fmin(seen[3] / cut, 1);
 }
 
-/* Largest difference of the best filter's result and confidence from the oracle, relative to the largest value, over
- * every `stride`-th glossy pixel. */
-UNUSED static double oracle_best_error(const struct gbuffer *gbuffer, const struct filter_options *options, int stride)
+/* Largest relative error of a result's channels; infinite for NaN. Black may be exactly black. */
+UNUSED static double oracle_colour_error(const struct image *glossy, int x, int y, const double expected[3])
+{
+    double worst = 0;
+    for (int i = 0; i < 3; i++) {
+        double difference = fabs((double)image_row(glossy, i, y)[x] - expected[i]);
+        worst = fmax(worst, isnan(difference) ? INFINITY : difference == 0 ? 0 : difference / fabs(expected[i]));
+    }
+    return worst;
+}
+
+/* Errors of the best filter at every `stride`-th glossy pixel, width * height of them at most: the largest of the
+ * channels', relative to their values, and the confidence's. Returns how many. */
+UNUSED static int oracle_best_errors(const struct gbuffer *gbuffer, const struct filter_options *options, int stride,
+                                     double *errors)
 {
     struct image glossy, confidence, radius;
-    struct error err;
     struct filter_options paper = *options;
     const int width = gbuffer->phong.width, height = gbuffer->phong.height;
     double *areas = malloc(2 * (size_t)width * (size_t)height * sizeof *areas), *ways = areas + width * height;
-    double worst = 0, largest = 0;
-    int count = 0;
+    int glossy_count = 0, count = 0;
     paper.mode = FILTER_MODE_PAPER;
-    assert_ok(filter_glossy(gbuffer, &paper, &glossy, &radius, &err), err);
+    filter_run(gbuffer, &paper, &glossy, &radius);
     image_free(&glossy);
-    assert_ok(filter_glossy(gbuffer, options, &glossy, &confidence, &err), err);
+    filter_run(gbuffer, options, &glossy, &confidence);
     for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
+        for (int x = 0; x < width; x++)
             areas[y * width + x] = scene_glossy(gbuffer, x, y) ? oracle_area(gbuffer, x, y) : 0;
-            for (int i = 0; i < 3; i++)
-                largest = fmax(largest, fabs((double)image_row(&gbuffer->specular, i, y)[x]));
-        }
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            if (!scene_glossy(gbuffer, x, y) || count++ % stride != 0)
+            if (!scene_glossy(gbuffer, x, y) || glossy_count++ % stride != 0)
                 continue;
             double expected[3], r = (double)image_row(&radius, 0, y)[x];
             double error = fabs(oracle_best_pixel(gbuffer, r, areas, ways, x, y, expected) -
                                 (double)image_row(&confidence, 0, y)[x]);
-            for (int i = 0; i < 3; i++)
-                error = fmax(error, fabs((double)image_row(&glossy, i, y)[x] - expected[i]) / largest);
-            if (!(error <= worst))
-                worst = isnan(error) ? INFINITY : error;
+            errors[count++] = fmax(error, oracle_colour_error(&glossy, x, y, expected));
         }
-    assert_true(count > 0);
     image_free(&glossy);
     image_free(&confidence);
     image_free(&radius);
     free(areas);
-    return worst;
+    return count;
 }
 
-/* Largest relative difference of the filter's result from the oracle, over every `stride`-th glossy pixel. */
-UNUSED static double oracle_error(const struct gbuffer *gbuffer, const struct filter_options *options,
-                                  oracle_weight *weight, int stride)
+/* The same of equation (1). */
+UNUSED static int oracle_errors(const struct gbuffer *gbuffer, const struct filter_options *options,
+                                oracle_weight *weight, int stride, double *errors)
 {
     struct image glossy, radius;
-    struct error err;
-    double worst = 0;
-    int count = 0;
-    assert_ok(filter_glossy(gbuffer, options, &glossy, &radius, &err), err);
+    int glossy_count = 0, count = 0;
+    filter_run(gbuffer, options, &glossy, &radius);
     for (int y = 0; y < glossy.height; y++)
         for (int x = 0; x < glossy.width; x++) {
-            if (!scene_glossy(gbuffer, x, y) || count++ % stride != 0)
+            if (!scene_glossy(gbuffer, x, y) || glossy_count++ % stride != 0)
                 continue;
             double expected[3], r = (double)image_row(&radius, 0, y)[x];
             oracle_pixel(gbuffer, r, options->window == FILTER_WINDOW_SQUARE, weight, x, y, expected);
-            for (int i = 0; i < 3; i++) {
-                double difference = fabs((double)image_row(&glossy, i, y)[x] - expected[i]);
-                double error = difference == 0 ? 0 : difference / fabs(expected[i]); /* black may be exactly black */
-                if (!(error <= worst))
-                    worst = isnan(error) ? INFINITY : error;
-            }
+            errors[count++] = oracle_colour_error(&glossy, x, y, expected);
         }
-    assert_true(count > 0);
     image_free(&glossy);
     image_free(&radius);
+    return count;
+}
+
+UNUSED static double *errors_alloc(const struct gbuffer *gbuffer)
+{
+    double *errors = malloc((size_t)gbuffer->phong.width * (size_t)gbuffer->phong.height * sizeof *errors);
+    assert_non_null(errors);
+    return errors;
+}
+
+/* The largest; frees them. */
+UNUSED static double errors_worst(double *errors, int count)
+{
+    double worst = 0;
+    assert_true(count > 0);
+    for (int i = 0; i < count; i++)
+        worst = fmax(worst, errors[i]);
+    free(errors);
     return worst;
+}
+
+UNUSED static double oracle_best_error(const struct gbuffer *gbuffer, const struct filter_options *options, int stride)
+{
+    double *errors = errors_alloc(gbuffer);
+    return errors_worst(errors, oracle_best_errors(gbuffer, options, stride, errors));
+}
+
+UNUSED static double oracle_error(const struct gbuffer *gbuffer, const struct filter_options *options,
+                                  oracle_weight *weight, int stride)
+{
+    double *errors = errors_alloc(gbuffer);
+    return errors_worst(errors, oracle_errors(gbuffer, options, weight, stride, errors));
 }
 
 #endif

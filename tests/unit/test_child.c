@@ -124,6 +124,18 @@ static void wait__exit_statuses_and_signals__as_a_shell_says(void **state)
     output_of_command("kill -KILL $$", 128 + SIGKILL);
 }
 
+static void ended__busy_child__its_processor_time(void **state)
+{
+    (void)state;
+    struct child child;
+    int status = -1;
+    start(&child, "i=0; while [ $i -lt 30000 ]; do i=$((i + 1)); done");
+    while (!child_has_ended(&child, &status))
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    assert_int_equal(status, 0);
+    assert_true(child.cpu_s > 0.005 && child.cpu_s < 10);
+}
+
 static void assert_not_started(char *program, const char *directory, bool expected_missing, const char *reason)
 {
     char *const argv[] = {program, NULL}, *const environment[] = {NULL};
@@ -220,6 +232,7 @@ int main(void)
         cmocka_unit_test(start__second_child__inherits_no_file_of_the_first),
         cmocka_unit_test(start__silent_child__reading_does_not_block),
         cmocka_unit_test(wait__exit_statuses_and_signals__as_a_shell_says),
+        cmocka_unit_test(ended__busy_child__its_processor_time),
         cmocka_unit_test(start__no_such_program__missing),
         cmocka_unit_test(start__not_executable__refused_but_not_missing),
         cmocka_unit_test(kill__obedient_child__ends_at_once_and_is_reaped),

@@ -119,7 +119,7 @@ static void cli__wrong_command__is_refused(void **state)
 {
     (void)state;
     static const char *const lines[] = {
-        "",           "a",         "-o b.exr",      "a b -o c.exr",          "a -o",      "a -o b.exr --phong",
+        "",           "a",         "-o b.exr",      "a b --check",            "a -o",      "a -o b.exr --phong",
         "a -o b.jpg", "a -o b",    "a -o b.exr -x", "a -o b.exr --phongs 3", "a -o -",    "a -o b.png --layers",
     };
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
@@ -134,21 +134,21 @@ static void cli_filter_option__another_programs_switch__is_left_alone(void **sta
     (void)state;
     char *argv[] = {"+W640", "-A", "Declare=x=1", "--phongy", "--phong=7", "--layers", "--phong"};
     struct cli_filter options = cli_filter_default();
-    bool taken;
+    enum cli_option option;
     int index;
     for (index = 0; index < 4;) {
         int before = index;
-        assert_ok(cli_filter_option(7, argv, &index, &options, &taken, &err), err);
-        assert_false(taken);
+        assert_ok(cli_filter_option(7, argv, &index, &options, &option, &err), err);
+        assert_int_equal(option, CLI_OPTION_NONE);
         assert_int_equal(index, before);
         index++;
     }
-    assert_ok(cli_filter_option(7, argv, &index, &options, &taken, &err), err);
-    assert_true(taken && index == 5);
+    assert_ok(cli_filter_option(7, argv, &index, &options, &option, &err), err);
+    assert_true(option == CLI_OPTION_FILTER && index == 5);
     assert_near(options.filter.phong, 7, 0);
-    assert_ok(cli_filter_option(7, argv, &index, &options, &taken, &err), err);
-    assert_true(taken && index == 6 && options.layers);
-    assert_int_equal(cli_filter_option(7, argv, &index, &options, &taken, &err), RESULT_USAGE);
+    assert_ok(cli_filter_option(7, argv, &index, &options, &option, &err), err);
+    assert_true(option == CLI_OPTION_OUTPUT && index == 6 && options.layers);
+    assert_int_equal(cli_filter_option(7, argv, &index, &options, &option, &err), RESULT_USAGE);
     assert_non_null(strstr(err.text, "--phong needs a value"));
 }
 

@@ -48,19 +48,6 @@ static struct filter_options test_options(void)
     return options;
 }
 
-static void filter_run(const struct gbuffer *gbuffer, const struct filter_options *options, struct image *glossy,
-                       struct image *radius)
-{
-    assert_ok(filter_glossy(gbuffer, options, glossy, radius, &err), err);
-}
-
-static bool image_same(const struct image *a, const struct image *b)
-{
-    size_t count = a->stride * (size_t)a->height * (size_t)a->channels;
-    return a->width == b->width && a->height == b->height && a->channels == b->channels &&
-           memcmp(a->pixels, b->pixels, count * sizeof *a->pixels) == 0;
-}
-
 /* --- equation (1) --- */
 
 static void filter__exact_weights__match_the_oracle(void **state)
@@ -450,21 +437,6 @@ static void filter__constant_radiance__stays_constant_with_every_option(void **s
         image_free(&glossy);
     }
     gbuffer_free(&gbuffer);
-}
-
-/* A row of pixels that all see the same direction: every weight is 1. */
-static void flat_gbuffer(struct gbuffer *gbuffer, int width, int height, float phong)
-{
-    gbuffer_alloc(gbuffer, width, height);
-    gbuffer->has_eye = true;
-    gbuffer->view_angle = 1;
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            image_row(&gbuffer->position, 0, y)[x] = (float)x;
-            image_row(&gbuffer->position, 2, y)[x] = (float)y;
-            image_row(&gbuffer->endpoint, 1, y)[x] = 1;
-            image_row(&gbuffer->phong, 0, y)[x] = phong;
-        }
 }
 
 static void filter__weights_of_one__sum_to_the_number_of_taps(void **state)

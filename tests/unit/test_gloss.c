@@ -94,6 +94,15 @@ static void gloss_filter__wrong_planes_or_options__refused(void **state)
     assert_refused(&planes, (struct gloss_options){.phong = -1}, GLOSS_USAGE, "below 0 or NaN");
     assert_refused(&planes, (struct gloss_options){.phong = NAN}, GLOSS_USAGE, "below 0 or NaN");
     assert_refused(&planes, (struct gloss_options){.threads = -1}, GLOSS_USAGE, "below 0");
+    static const float angles[] = {-1, NAN, INFINITY};
+    for (int i = 0; i < 3; i++) {
+        planes.view_angle = angles[i];
+        assert_refused(&planes, options, GLOSS_USAGE, "isn't finite");
+    }
+    planes.view_angle = 0;
+    planes.eye = (const float[]){0, 1, NAN};
+    assert_refused(&planes, options, GLOSS_USAGE, "isn't finite");
+    planes.eye = NULL;
     planes.endpoint[3] = NULL;
     assert_refused(&planes, options, GLOSS_USAGE, "plane 3 of endpoint is missing");
     planes = make_planes();

@@ -13,6 +13,11 @@ static void lobe_weight__hand_worked__matches(void **state)
     assert_near(lobe_weight(0, -0.5), 0, 0);
     assert_near(lobe_weight(INFINITY, 1), 1, 0);
     assert_near(lobe_weight(INFINITY, 0.999), 0, 0);
+    assert_near(lobe_weight(1, -1e-300), 0, 0);
+    assert_near(lobe_weight(1, 1 + 1e-15), 1, 0); /* a rounded cosine */
+    assert_near(lobe_weight(1e-6, 4.9e-324), 1, 1e-3); /* (2^-1074)^1e-6 */
+    assert_near(lobe_weight(1e8, cos(1e-4)), exp(-0.5), 1e-6);
+    assert_near(lobe_weight(1e8, 0.9), 0, 0);
     assert_near(lobe_weight_max(0.7, 2, 0.5), 0.35, 1e-15);
 }
 
@@ -46,6 +51,7 @@ static void lobe_half_angle__limits__are_exact(void **state)
     (void)state;
     assert_near(lobe_half_angle(INFINITY, 0.99, pi / 2), 0, 0);
     assert_near(lobe_half_angle(0, 0.5, pi / 2), pi / 3, 1e-15); /* cos = 1 - E */
+    assert_near(lobe_half_angle(1e-6, 0.5, pi / 2), pi / 3, 1e-6);
     assert_near(lobe_half_angle(10, 0.99, 0.1), 0.1, 0);
     /* Narrow lobes: Theta^2/2 = -log(1 - E)/(p + 1). */
     double narrow = sqrt(2 * log(100) / 1e14);
@@ -63,6 +69,9 @@ static void lobe_alpha__hand_worked__matches(void **state)
     assert_near(lobe_alpha(0.3, INFINITY, 2), 0, 0);
     assert_near(lobe_alpha(0.3, 2, 0), 0, 0);
     assert_near(lobe_alpha(0.3, 0, 0), 0, 0);
+    assert_near(lobe_alpha(0.3, 4.9e-324, 4.9e-324), 0.15, 1e-16);
+    assert_near(lobe_alpha(0.3, 1e308, 4.9e-324), 0, 0);
+    assert_near(lobe_alpha(0.3, 4.9e-324, 1e308), 0.3, 0);
 }
 
 static void lobe_radius__hand_worked__matches(void **state)
@@ -86,8 +95,10 @@ static void lobe_phong__from_roughness_and_back__agrees(void **state)
 static void lobe_integral__midpoint_rule__is_the_same(void **state)
 {
     (void)state;
-    static const double exponents[] = {0, 0.5, 10, 3000}, floors[] = {0, 0.001, 0.3};
-    for (int i = 0; i < 4; i++)
+    assert_near(lobe_integral(INFINITY, 0.001), 0, 0);
+    assert_near(lobe_integral(INFINITY, 0), 0, 0);
+    static const double exponents[] = {0, 1e-6, 0.5, 10, 3000}, floors[] = {0, 0.001, 0.3};
+    for (int i = 0; i < 5; i++)
         for (int j = 0; j < 3; j++) {
             const int steps = 400000;
             double sum = 0;

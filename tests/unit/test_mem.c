@@ -163,9 +163,20 @@ static void file_write__missing_folder_or_full_device__path_and_reason(void **st
     buffer_free(&text);
 }
 
+static void memory__more_than_there_is__refused_with_the_figures(void **state)
+{
+    (void)state;
+    struct error err;
+    assert_int_equal(memory_check(1, &err), RESULT_OK);
+    assert_int_equal(memory_check(1e18, &err), RESULT_DATA);
+    assert_non_null(strstr(err.text, "out of memory: 1e+09 GB are needed, and "));
+    assert_non_null(strstr(err.text, " GB are free; "));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory__more_than_there_is__refused_with_the_figures),
         cmocka_unit_test(buffer__many_small_pieces__all_there_with_a_nul),
         cmocka_unit_test(buffer__nothing_added__an_empty_string),
         cmocka_unit_test(buffer__nul_bytes__kept),

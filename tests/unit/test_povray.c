@@ -135,6 +135,66 @@ static void run__one_at_a_time__in_their_order(void **state)
     povray_jobs_free(jobs.jobs, jobs.count);
 }
 
+struct chain {
+    struct jobs jobs;
+    int calls;
+};
+
+static enum result replace_script(void *context, struct error *err)
+{
+    static char script[] = "echo replaced >> order";
+    struct chain *chain = context;
+    (void)err;
+    chain->calls++;
+    assert_true(chain->jobs.jobs[2].finished && !chain->jobs.jobs[0].started);
+    chain->jobs.arguments[0][2] = script;
+    chain->jobs.jobs[0].held = false;
+    return RESULT_OK;
+}
+
+static void run__a_held_job__starts_when_it_is_let_go(void **state)
+{
+    (void)state;
+    static struct chain chain;
+    static struct progress progress;
+    struct error err;
+    int failed;
+    add_job(&chain.jobs, "echo first >> order");
+    add_job(&chain.jobs, "exit 0");
+    add_job(&chain.jobs, "sleep 0.2; echo third >> order");
+    chain.jobs.jobs[0].held = true;
+    chain.jobs.jobs[2].ended = replace_script;
+    chain.jobs.jobs[2].context = &chain;
+    assert_ok(run_jobs(&chain.jobs, 3, &progress, &failed, &err), err);
+    assert_int_equal(chain.calls, 1);
+    assert_string_equal(run("cat order"), "third\nreplaced\n");
+    unlink(in_scratch("order"));
+    povray_jobs_free(chain.jobs.jobs, chain.jobs.count);
+}
+
+static enum result refuse(void *context, struct error *err)
+{
+    (void)context;
+    return error_set(err, RESULT_DATA, "refused");
+}
+
+static void run__refused_after_a_job__the_others_are_ended(void **state)
+{
+    (void)state;
+    static struct jobs jobs;
+    static struct progress progress;
+    struct error err;
+    int failed;
+    add_job(&jobs, "exec sleep 30");
+    add_job(&jobs, "exit 0");
+    jobs.jobs[1].ended = refuse;
+    assert_int_equal(run_jobs(&jobs, 2, &progress, &failed, &err), RESULT_DATA);
+    assert_string_equal(err.text, "refused");
+    assert_int_equal(failed, -1);
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
+    povray_jobs_free(jobs.jobs, jobs.count);
+}
+
 static bool was_reported(const struct progress *progress, double done)
 {
     for (int i = 0; i < progress->count; i++)
@@ -419,6 +479,8 @@ int main(void)
         cmocka_unit_test(run__all_succeed__finished_with_their_messages),
         cmocka_unit_test(run__at_once__never_more),
         cmocka_unit_test(run__one_at_a_time__in_their_order),
+        cmocka_unit_test(run__a_held_job__starts_when_it_is_let_go),
+        cmocka_unit_test(run__refused_after_a_job__the_others_are_ended),
         cmocka_unit_test(run__progress_lines__fractions_of_all_jobs),
         cmocka_unit_test(run__progress_line_in_two_pieces__not_misread),
         cmocka_unit_test(run__one_fails__others_ended_and_its_messages_kept),

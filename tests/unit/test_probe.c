@@ -78,7 +78,7 @@ static void render(const struct probes *probes, sky *of, const double vector[3],
         for (long face = 0; face < rays; face++) {
             double ray[3], direction[3];
             long pixel = PROBE_VIEW_WIDTH + i * rays + face;
-            probe_ray(probe->phong, probe_seed(probes, probe), probes->rays_before + face, ray);
+            probes_ray(probes, probe, face, ray);
             for (int axis = 0; axis < 3; axis++)
                 direction[axis] = ray[0] * probe->across[axis] + ray[1] * probe->up[axis] + ray[2] * probe->axis[axis];
             double along = 2 * dot(direction, probe->normal);

@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+"""Error against time: the filters, --rays N, and what there is in their place, by the truth of `povgloss probe`.
+
+usage: scripts/trade.py [SCENE.pov[:OPTION,...] ...]     (default: povscenes/*.pov and two of POV-Ray's examples)
+Needs numpy, OpenEXR, pyoidn and matplotlib; scripts/trade.sh calls it with them. Writes docs/trade.csv, trade.png and the
+tables of docs/accuracy.md. BIN: folder of the programs; OUT: scratch folder, kept, and not measured again.
+
+Time is CPU seconds of all processes, POV-Ray's included: another program on the machine doesn't count. Peers:
+  brute       povgloss brute: N rays of the lobe at each glossy pixel
+  OIDN        brute, denoised by Intel Open Image Denoise (HDR, colour alone)
+  normals     what POV-Ray's users do: normals of tiny bumps, N at each pixel; the lobe's width is fitted at normal incidence
+"""
+import csv, glob, os, resource, shutil, subprocess, sys
+import numpy as np, OpenEXR, pyoidn
+
+BIN = os.path.abspath(os.environ.get('BIN', 'build/bin'))
+OUT = os.path.abspath(os.environ.get('OUT', 'build/trade'))
+WIDTH, HEIGHT = 240, 180
+SIZE = [f'+W{WIDTH}', f'+H{HEIGHT}']
+ALL, TRADE = (30, 100, 300, 1000), (100, 1000)
+RAYS, BRUTE, NORMALS = (1, 4, 16), (4, 16, 64), (4, 16, 64)
+EXAMPLES = '/usr/share/doc/povray/examples/advanced/'
+BUMPS = 3.3  # bump_size^2 * p: at normal incidence the bumps' lobe then has the mean cosine of cos^p
+
+
+def timed(*command, cwd=None):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(command, cwd=cwd, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode:
+        sys.exit(f'{" ".join(command)}\n{done.stderr[-2000:]}')
+    return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+
+
+def read(path, group):
+    with OpenEXR.File(path, separate_channels=True) as file:
+        return np.stack([file.channels()[group + c].pixels.astype(np.float32) for c in 'RGB'], -1)
+
+
+def errors(image, probes):
+    difference = image[probes['y'], probes['x']] - probes['value']
+    return np.sqrt((difference ** 2).mean())
+
+
+class Scene:
+    def __init__(self, text):
+        path, _, options = text.partition(':')
+        self.path, self.options = path, options.split(',') if options else []
+        self.name = os.path.basename(path)[:-4]
+        self.folder = f'{OUT}/{self.name}'
+        self.rows = []
+
+    def povgloss(self, command, *options):
+        return timed(f'{BIN}/povgloss', command, self.path, *SIZE, *self.options, '--quiet', *options)
+
+    def note(self, p, method, n, seconds, image):
+        self.rows.append((self.name, p, method, n, round(seconds, 3), round(float(errors(image, self.probes[p])), 5)))
+        print(*self.rows[-1], flush=True)
+
+    def prepare(self):
+        os.makedirs(self.folder)
+        self.passes = self.povgloss('passes', '--keep', f'{self.folder}/keep', '--no-check', '-o', f'{self.folder}/passes.exr')
+        self.povgloss('probe', '--grid', '20', *[f'--phong={p}' for p in ALL], '-o', f'{self.folder}/probes.csv')
+        rows = list(csv.DictReader(open(f'{self.folder}/probes.csv')))
+        self.probes = {}
+        for p in ALL:
+            chosen = [row for row in rows if float(row['phong']) == p]
+            self.probes[p] = {'x': [int(r['x']) for r in chosen], 'y': [int(r['y']) for r in chosen],
+                              'value': np.array([[float(r[c]) for c in 'RGB'] for r in chosen])}
+
+    def filters(self, p):
+        for method, options in ('sharp', ['--phong', 'inf']), ('paper', ['--mode', 'paper']), ('best', []):
+            options = options if 'inf' in options else ['--phong', str(p), *options]
+            seconds = timed(f'{BIN}/glossfilter', f'{self.folder}/passes.exr', *options, '--quiet', '--layers',
+                            '-o', f'{self.folder}/filtered.exr')
+            self.note(p, method, 0, self.passes + seconds, read(f'{self.folder}/filtered.exr', 'glossy.'))
+
+    def rays(self, p):
+        image = f'{self.folder}/rays.exr'
+        for n in RAYS:
+            seconds = self.povgloss('render', '--no-check', '--phong', str(p), '--rays', str(n), '--layers', '-o', image)
+            self.note(p, 'rays', n, seconds, read(image, 'glossy.'))
+        for n in BRUTE:
+            seconds = self.povgloss('brute', '--phong', str(p), '--samples', str(n), '--layers', '-o', image)
+            noisy = read(image, 'glossy.')
+            self.note(p, 'brute', n, seconds, noisy)
+            if n <= 16:
+                before = resource.getrusage(resource.RUSAGE_SELF)
+                clean = pyoidn.denoise(noisy, hdr=True)
+                after = resource.getrusage(resource.RUSAGE_SELF)
+                self.note(p, 'OIDN', n, seconds + after.ru_utime - before.ru_utime, clean)
+
+    def normals(self, p):
+        """The specular pass in a larger picture, every pixel of which meets another bump, and the mean of each square."""
+        folder = f'{self.folder}/keep/specular'
+        lines = open(f'{folder}/pass.pov').read().split('\n')
+        at = max(i for i, line in enumerate(lines) if line.startswith('#default { pigment { povgloss_pigment }'))
+        lines.insert(at + 1, f'#default {{ normal {{ bumps {np.sqrt(BUMPS / p):.5g} scale 0.0003 }} }}')
+        open(f'{folder}/normals.pov', 'w').write('\n'.join(lines))
+        libraries = [f'+L../{name}' for name in sorted(os.listdir(f'{self.folder}/keep')) if name.startswith('lib')]
+        for n in NORMALS:
+            side = round(n ** 0.5)
+            seconds = timed('povray', '+Inormals.pov', '+L../copies', *libraries, '-A', '-D', '-GA', '+FE', '+Onormals.exr',
+                            f'+W{WIDTH * side}', f'+H{HEIGHT * side}', cwd=folder)
+            image = np.minimum(read(f'{folder}/normals.exr', ''), 65504)
+            image = image.reshape(HEIGHT, side, WIDTH, side, 3).mean((1, 3))
+            self.note(p, 'normals', n, self.passes + seconds, image)
+
+    def measure(self):
+        if os.path.exists(f'{self.folder}/rows.csv'):
+            self.rows = [(r[0], int(r[1]), r[2], int(r[3]), float(r[4]), float(r[5]))
+                         for r in csv.reader(open(f'{self.folder}/rows.csv'))]
+            return
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.prepare()
+        for p in ALL:
+            self.filters(p)
+        for p in TRADE:
+            self.rays(p)
+            self.normals(p)
+        csv.writer(open(f'{self.folder}/rows.csv', 'w')).writerows(self.rows)
+
+
+def needed_seconds(curve, error):
+    """Seconds at which a curve of (seconds, error) comes down to an error: a power law through its last two points."""
+    (t1, e1), (t2, e2) = curve[-2:]
+    for (a, b) in zip(curve, curve[1:]):
+        if b[1] <= error:
+            (t1, e1), (t2, e2) = a, b
+            break
+    if e2 >= e1:
+        return np.inf
+    return float(np.exp(np.log(t1) + np.log(t2 / t1) * np.log(error / e1) / np.log(e2 / e1)))
+
+
+def curve(rows, name, p, method):
+    return [(r[4], r[5]) for r in rows if r[:3] == (name, p, method)]
+
+
+def table_filters(rows, names):
+    lines = ['| scene | ' + ' | '.join(f'p = {p}' for p in ALL) + ' |', '|---|' + '---|' * len(ALL)]
+    ratios = {p: [] for p in ALL}
+    for name in names:
+        cells = []
+        for p in ALL:
+            sharp, paper, best = (curve(rows, name, p, m)[0][1] for m in ('sharp', 'paper', 'best'))
+            ratios[p].append(best / paper)
+            cells.append(f'{sharp:.3f} / {paper:.3f} / {best:.3f}')
+        lines.append(f'| {name} | ' + ' | '.join(cells) + ' |')
+    lines.append('| median of best / paper | ' + ' | '.join(f'{np.median(ratios[p]):.2f}' for p in ALL) + ' |')
+    return lines
+
+
+def table_trade(rows, names):
+    methods = [('best', 0)] + [('rays', n) for n in RAYS] + [('brute', n) for n in BRUTE] + \
+              [('OIDN', n) for n in BRUTE if n <= 16] + [('normals', n) for n in NORMALS]
+    lines = ['| scene, p | ' + ' | '.join(f'{m} {n}' if n else m for m, n in methods) + ' |',
+             '|---|' + '---|' * len(methods)]
+    for name in names:
+        for p in TRADE:
+            cells = [next(f'{r[5]:.4f} {r[4]:.1f} s' for r in rows if r[:4] == (name, p, m, n)) for m, n in methods]
+            lines.append(f'| {name} {p} | ' + ' | '.join(cells) + ' |')
+    return lines
+
+
+def table_speed(rows, names):
+    lines = ['| scene, p | ' + ' | '.join(f'rays {n} over {peer}' for peer in ('brute', 'normals') for n in (0,) + RAYS) + ' |',
+             '|---|' + '---|' * (2 * (1 + len(RAYS)))]
+    found = [[] for _ in range(2 * (1 + len(RAYS)))]
+    for name in names:
+        for p in TRADE:
+            ours = curve(rows, name, p, 'best') + curve(rows, name, p, 'rays')
+            times = [needed_seconds(curve(rows, name, p, peer), error) / seconds
+                     for peer in ('brute', 'normals') for seconds, error in ours]
+            for column, value in zip(found, times):
+                column.append(value)
+            lines.append(f'| {name} {p} | ' + ' | '.join('never' if np.isinf(v) else f'{v:.2g}x' for v in times) + ' |')
+    medians = [np.median(column) for column in found]
+    lines.append('| median | ' + ' | '.join('never' if np.isinf(v) else f'{v:.2g}x' for v in medians) + ' |')
+    return lines
+
+
+def draw(rows, names):
+    import matplotlib
+    matplotlib.use('Agg')
+    import matplotlib.pyplot as plt
+    styles = {'paper': 's', 'best': 'o', 'rays': 'o-', 'brute': 'x--', 'OIDN': '^:', 'normals': '+--'}
+    columns = (len(names) + 1) // 2
+    figure, axes = plt.subplots(2, columns, figsize=(3.3 * columns, 6.4), squeeze=False)
+    for axis in axes.flat[len(names):]:
+        axis.axis('off')
+    for axis, name in zip(axes.flat, names):
+        for i, (method, style) in enumerate(styles.items()):
+            points = curve(rows, name, TRADE[0], method)
+            if method == 'rays':
+                points = curve(rows, name, TRADE[0], 'best') + points
+            axis.loglog(*zip(*points), style, color=f'C{1 if method == "rays" else i}', markersize=5,
+                        label={'best': 'best', 'rays': 'best, --rays 1, 4, 16', 'brute': 'brute 4, 16, 64',
+                               'OIDN': 'brute 4, 16 + OIDN', 'normals': 'micro-normals 4, 16, 64'}.get(method, method))
+        axis.set_title(name, fontsize=10)
+        axis.grid(True, which='both', linewidth=0.3)
+        axis.tick_params(labelsize=7, which='both')
+    for axis in axes[-1]:
+        axis.set_xlabel('CPU seconds, POV-Ray included', fontsize=8)
+    for row in axes:
+        row[0].set_ylabel(f'RMSE, p = {TRADE[0]}', fontsize=8)
+    handles, labels = axes[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc='lower center', ncol=6, fontsize=8)
+    figure.tight_layout(rect=(0, 0.045, 1, 1))
+    figure.savefig('docs/trade.png', dpi=100)
+
+
+def main():
+    texts = sys.argv[1:] or sorted(glob.glob('povscenes/*.pov')) + [
+        EXAMPLES + 'woodbox.pov:--gloss,all=300', EXAMPLES + 'whiltile.pov:--gloss,all=300']
+    rows, names = [], []
+    for text in texts:
+        scene = Scene(text)
+        scene.measure()
+        rows += scene.rows
+        names.append(scene.name)
+    with open('docs/trade.csv', 'w') as file:
+        writer = csv.writer(file, lineterminator='\n')
+        writer.writerow(['scene', 'phong', 'method', 'samples', 'cpu_seconds', 'rmse'])
+        writer.writerows(rows)
+    draw(rows, names)
+    tables = {'filters': table_filters(rows, names), 'trade': table_trade(rows, names), 'speed': table_speed(rows, names)}
+    text = open('docs/accuracy.md').read()
+    for name, lines in tables.items():
+        head, rest = text.split(f'<!-- {name} -->\n')
+        text = head + f'<!-- {name} -->\n' + '\n'.join(lines) + '\n' + rest[rest.index('\n<!-- end -->'):]
+    open('docs/accuracy.md', 'w').write(text)
+
+
+main()
