@@ -1,4 +1,5 @@
-/* Taps for the fast filter: cells of 2^n x 2^n pixels, in the order in which 16 pixels some columns apart look at them. */
+/* Taps for the fast filter: cells of 2^n x 2^n pixels, in the order in which 16 pixels some columns apart look at
+ * them. */
 #include "filter_cells.h"
 
 #include "bands.h"
@@ -80,7 +81,8 @@ static void fill_rows(void *context, int first, int end)
     const struct filling *filling = context;
     const struct filter_level *level = filling->level;
     struct filter_taps *taps = filling->taps;
-    const int size = 1 << filling->cell, repeat = filling->cell > filling->shift ? 1 << (filling->cell - filling->shift) : 1;
+    const int size = 1 << filling->cell;
+    const int repeat = filling->cell > filling->shift ? 1 << (filling->cell - filling->shift) : 1;
     const int cells = (level->taps.width + size - 1) >> filling->cell;
     for (int y = first; y < end; y++)
         for (int x = 0; x < cells; x++) {

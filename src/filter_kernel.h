@@ -10,8 +10,8 @@
 
 enum {
     FILTER_LANES = 16,
-    /* Unusable columns left and right of the picture (of each phase of the columns), so that no lane reads outside and no
-     * column needs a test. */
+    /* Unusable columns left and right of the picture (of each phase of the columns), so that no lane reads outside and
+     * no column needs a test. */
     FILTER_BORDER = FILTER_LANES
 };
 
@@ -61,8 +61,8 @@ static inline size_t filter_taps_column(const struct filter_taps *taps, int x)
     return (size_t)phase * (taps->stride >> taps->shift) + (size_t)(column >> taps->shift);
 }
 
-/* What is computed: 16 pixels of row y, every 2^shift-th column (of the taps) from x on. Unused lanes: limit -1, the rest
- * 0. */
+/* What is computed: 16 pixels of row y, every 2^shift-th column (of the taps) from x on. Unused lanes: limit -1, the
+ * rest 0. */
 struct filter_lanes {
     int x, y;
     unsigned char kinds;               /* of the used lanes */
@@ -89,7 +89,7 @@ struct filter_lanes {
     /* Which of the taps count, where those nearer and farther are taken from planes of other resolutions: all for
      * ring_all. */
     struct filter_ring {
-        int step;        /* columns of the planes from one tap to the next: 2^n, where a tap is n times coarser than a lane;
+        int step;        /* columns of the planes from one tap to the next: 2^n, where a tap is 2^n times as wide;
                             lanes->y and all dx, dy count such taps */
         int inner;       /* taps up to so many rows and columns away are left out; -1: none */
         int outer;       /* so many columns away: the last on the left counts for odd lanes only, on the right for even

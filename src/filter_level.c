@@ -118,7 +118,8 @@ void filter_taps_blocks(struct filter_taps *taps, int first, int end)
             struct filter_box box = empty_box;
             unsigned char kinds = 0;
             for (size_t i = 0; i < (size_t)FILTER_LANES << taps->shift; i++) {
-                size_t tap = (size_t)y * taps->stride + i / FILTER_LANES * phase + block * FILTER_LANES + i % FILTER_LANES;
+                size_t column = i / FILTER_LANES * phase + block * FILTER_LANES + i % FILTER_LANES;
+                size_t tap = (size_t)y * taps->stride + column;
                 if (!(taps->planes[FILTER_PLANE_GAIN][tap] > 0))
                     continue;
                 bool position = taps->planes[FILTER_PLANE_W][tap] > 0;
@@ -221,7 +222,8 @@ static double direction_step(const struct filter_level *level, const float a[3],
     for (int sign = -1; sign <= 1; sign += 2) {
         int u = x + sign * right, v = y + sign * down;
         double other[3], square = 0;
-        if (!is_inside(level, u, v) || !filter_level_is_tap(level, u, v) || filter_level_direction(level, a, u, v, other) == 0)
+        if (!is_inside(level, u, v) || !filter_level_is_tap(level, u, v) ||
+            filter_level_direction(level, a, u, v, other) == 0)
             continue;
         for (int i = 0; i < 3; i++) {
             other[i] = sign * (other[i] - own[i]);
@@ -513,7 +515,8 @@ static void sums_add(struct filter_sums *sums, const struct filter_sums *more)
 
 /* Sums over the windows of the lanes; radii in pixels, below 0 for none. */
 static void sum_windows(const struct filter_level *level, const struct filter_view *view, int inner,
-                        struct filter_lanes *lanes, int x, int y, const float radii[FILTER_LANES], struct filter_sums *sums)
+                        struct filter_lanes *lanes, int x, int y, const float radii[FILTER_LANES],
+                        struct filter_sums *sums)
 {
     float largest = -1;
     memset(sums, 0, sizeof *sums);

@@ -52,16 +52,16 @@ void filter_taps_blocks(struct filter_taps *taps, int first, int end);
 
 enum { FILTER_CELLS_MAX = 8 };
 
-/* What 16 pixels in one row, 2^shift columns apart, sum over: around their own the pixels themselves, then rings of cells
- * of 2 x 2, 4 x 4 ... pixels. */
+/* What 16 pixels in one row, 2^shift columns apart, sum over: around their own the pixels themselves, then rings of
+ * cells of 2 x 2, 4 x 4 ... pixels. */
 struct filter_view {
     int shift;
     int cells;  /* number of cell sizes: 1, 2, 4 ... */
     struct filter_taps taps[FILTER_CELLS_MAX];
 };
 
-/* Results of 16 pixels of row y from column x on. The ring of one cell size ends `inner` cells of the next from the pixel's
- * own; 0: there is one ring, of pixels. scratch: filter_level_scratch() floats, aligned to 64 bytes. */
+/* Results of 16 pixels of row y from column x on. The ring of one cell size ends `inner` cells of the next from the
+ * pixel's own; 0: there is one ring, of pixels. scratch: filter_level_scratch() floats, aligned to 64 bytes. */
 void filter_level_blur(struct filter_level *level, const struct filter_view *view, int inner, int x, int y,
                        float *scratch);
 size_t filter_level_scratch(const struct filter_view *view);

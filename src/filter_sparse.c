@@ -2,8 +2,8 @@
  *
  * First every 16th pixel of every 16th row is summed. Then the pixels halfway between two are looked at, row by row and
  * column by column in turn, until none is left. A pixel is interpolated where its own direction and position are what
- * interpolation gives, and where beside it a pixel was summed that interpolation had met within the tolerance. The first
- * pixels are summed both by all taps and by rings of ever larger cells of them, and the quickest rings that come within
+ * interpolation gives, and where beside it a pixel was summed that interpolation had met within the tolerance. The
+ * first pixels are summed both by all taps and by rings of ever larger cells of them, and the quickest rings that come within
  * the tolerance serve for the pixels between.
  */
 #include "filter_sparse.h"
@@ -25,7 +25,8 @@ enum {
 /* Where rings of one cell size end, see filter_level_blur(), from the quickest to all pixels by themselves. */
 static const int reaches[REACHES] = {8, 16, 32, 64, 0};
 
-/* UNSURE: summed, and nothing to compare it with. SURE: interpolation was within the tolerance of it. ROUGH: it wasn't. */
+/* UNSURE: summed, and nothing to compare it with. SURE: interpolation was within the tolerance of it. ROUGH: it
+ * wasn't. */
 enum state { NONE, UNSURE, SURE, ROUGH };
 
 /* What is known of a pixel. */
@@ -75,7 +76,8 @@ static void point_place(const struct filter_level *level, int x, int y, struct p
     point->nearness = *filter_level_tap(level, FILTER_PLANE_W, x, y) > 0 ? 1 / distance : 0;
 }
 
-/* Whether two pixels' windows count and differ: the paper's always count, the best filter's where the lobe isn't seen. */
+/* Whether two pixels' windows count and differ: the paper's always count, the best filter's where the lobe isn't
+ * all seen. */
 static bool windows_differ(const struct sparse *sparse, const struct point *own, const struct point *point)
 {
     const double difference = 0.05, unseen = 0.03;
@@ -221,7 +223,8 @@ static double difference(const struct filter_level *level, int x, int y, const d
     return most;
 }
 
-/* Sums a run with every reach, the last of which is right, and chooses for each pixel the quickest that is good enough. */
+/* Sums a run with every reach, the last of which is right, and chooses for each pixel the quickest that is good
+ * enough. */
 static void run_measure(struct sparse *sparse, int x, int y, struct look *looks, float *scratch)
 {
     struct filter_level *level = sparse->level;

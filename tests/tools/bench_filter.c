@@ -40,7 +40,8 @@ static double median(double *times, int runs)
     return times[runs / 2];
 }
 
-/* Prints the errors, of the largest channel at pixels whose reference isn't black. Whether the RMSE is within the limit. */
+/* Prints the errors, of the largest channel at pixels whose reference isn't black. Whether the RMSE is within the
+ * limit. */
 static bool compare(const struct variant *variant, const struct image *reference)
 {
     size_t count = 0;
