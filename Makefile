@@ -230,6 +230,10 @@ run-fuzzers: $(FUZZERS)
 	        $(CURDIR)/build/fuzz/$$target $(CURDIR)/tests/fuzz/seeds/$$target || exit; \
 	done
 
+.PHONY: bench
+bench: $(PROGRAMS) $(PRELOAD) $(BUILD)/tests/tools/bench_filter ## times and errors of the fast filter against the exact one
+	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools OUT=$(BUILD)/bench scripts/bench.sh
+
 .PHONY: corpus
 corpus: $(PROGRAMS) ## run every scene of povray-examples as it is; the table is docs/corpus.md
 	BIN=$(BUILD)/bin OUT=$(BUILD)/corpus REPORT=docs/corpus.md scripts/corpus.sh
