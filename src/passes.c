@@ -1037,6 +1037,8 @@ enum result passes_close(struct passes *passes, struct error *err)
     text_list_free(&passes->command);
     free(passes->environment);
     free(passes->preload);
+    if (passes->options->sandbox)
+        sandbox_end();
     enum result result = work_folder_remove(&passes->folder, err);
     free(passes);
     return result;

@@ -7,6 +7,9 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 enum result program_find(const char *name, char **path, struct error *err)
@@ -109,5 +112,21 @@ enum result sandbox_begin(const char *work_folder, const struct text_list *folde
     if (!result)
         result = add_real(arguments, "--bind", work_folder, false, err);
     free(bwrap);
+    /* What an ended bwrap leaves becomes a child of this process. */
+    if (!result)
+        prctl(PR_SET_CHILD_SUBREAPER, 1);
     return result ? result : try_it(work_folder, arguments, err);
+}
+
+void sandbox_end(void)
+{
+    for (int tenths = 0; tenths < 50; tenths++) {
+        pid_t ended;
+        do
+            ended = waitpid(-1, NULL, WNOHANG);
+        while (ended > 0);
+        if (ended < 0)
+            return;
+        nanosleep(&(struct timespec){.tv_nsec = 100000000}, NULL);
+    }
 }
