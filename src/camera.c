@@ -36,7 +36,8 @@ static double place(int pixel, int count)
     return (pixel + 0.5) / count - 0.5;
 }
 
-/* Solves m x = right, m being positive definite, by elimination without pivots; false where it is as good as singular. */
+/* Solves m x = right, m being positive definite, by elimination without pivots; false where it is as good as
+ * singular. */
 static bool solve(double m[UNKNOWNS][UNKNOWNS], double right[UNKNOWNS], double x[UNKNOWNS])
 {
     for (int i = 0; i < UNKNOWNS; i++) {

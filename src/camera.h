@@ -7,14 +7,16 @@
 
 #include <stdbool.h>
 
-/* POV-Ray's: the ray through the picture's point (u, v), both from -1/2 (left, top) to 1/2, is direction + u right - v up. */
+/* POV-Ray's: the ray through the picture's point (u, v), both from -1/2 (left, top) to 1/2, is direction + u right - v
+ * up. */
 struct camera {
     double location[3], direction[3], right[3], up[3];
 };
 
-/* Finds direction, right and up (their common length is free) from the directions of all pixels' rays: X Y Z planes of unit
- * vectors. The ratio of two components of the ray is the ratio of two affine functions of (u, v): a homography, by linear
- * least squares. False where that isn't what they are, to within their coding (5e-5): the camera isn't a perspective one. */
+/* Finds direction, right and up (their common length is free) from the directions of all pixels' rays: X Y Z planes of
+ * unit vectors. The ratio of two components of the ray is the ratio of two affine functions of (u, v): a homography, by
+ * linear least squares. False where that isn't what they are, to within their coding (5e-5): the camera isn't a
+ * perspective one. */
 bool camera_fit(const struct image *directions, struct camera *camera);
 
 /* The rays' directions at the centres of width x height pixels, allocated here; the caller frees them. */

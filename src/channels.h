@@ -27,8 +27,8 @@ extern const struct channel_group channel_groups[CHANNEL_GROUPS];
 
 /* Looks for a group among the channels of a file. planes[i] is the plane of channel i, or -1; *missing is the name of
  * the first channel that isn't there, NULL if all are. `map`: texts like "P=World Position" or "P.X=pos.R", which
- * channels_check_map() has passed; the last one wins. RESULT_DATA: a name of the map is not in the file, or several layers
- * could be the group. `path` is for messages. */
+ * channels_check_map() has passed; the last one wins. RESULT_DATA: a name of the map is not in the file, or several
+ * layers could be the group. `path` is for messages. */
 MUST_CHECK enum result channels_find(const char *path, const struct exr_contents *contents,
                                      const struct channel_group *group, const struct text_list *map,
                                      int planes[CHANNELS_MAX], const char **missing, struct error *err);

@@ -30,8 +30,8 @@ bool child_has_ended(struct child *child, int *status);
 
 void child_close_output(struct child *child);
 
-/* Asks all the children to end, and makes those end that haven't after two seconds; reaps them. Those that aren't running
- * are passed over. */
+/* Asks all the children to end, and makes those end that haven't after two seconds; reaps them. Those that aren't
+ * running are passed over. */
 void child_kill(struct child *const *children, int count);
 
 #endif

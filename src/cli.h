@@ -56,13 +56,13 @@ MUST_CHECK enum result cli_integer(const char *option, const char *text, int low
 MUST_CHECK enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                  struct image *glossy, struct image *measure, struct error *err);
 
-/* Warns, unless asked to be quiet, of the pixels of `name` that the filter leaves out, or whose base or reflectance isn't
- * finite. */
+/* Warns, unless asked to be quiet, of the pixels of `name` that the filter leaves out, or whose base or reflectance
+ * isn't finite. */
 void cli_warn_of_pixels(const char *program, const char *name, const struct cli_filter *options,
                         const struct gbuffer *gbuffer);
 
-/* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and confidence.V, of the
- * paper radius.V. */
+/* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and confidence.V,
+ * of the paper radius.V. */
 MUST_CHECK enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                 struct error *err);
 

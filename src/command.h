@@ -24,9 +24,9 @@ struct command {
     bool help, version, print_include_dir;
 };
 
-/* Takes the whole command line and refuses what can't be drawn (RESULT_USAGE, or RESULT_DATA for an .ini file or a scene's
- * comment that can't be read). With `help`, `version` or `print_include_dir` nothing else is looked at. The switches are what
- * command->passes refers to. The caller frees both, also after a failure. */
+/* Takes the whole command line and refuses what can't be drawn (RESULT_USAGE, or RESULT_DATA for an .ini file or a
+ * scene's comment that can't be read). With `help`, `version` or `print_include_dir` nothing else is looked at. The
+ * switches are what command->passes refers to. The caller frees both, also after a failure. */
 MUST_CHECK enum result command_parse(int argc, char **argv, struct command *command, struct povray_switches *switches,
                                      struct error *err);
 void command_free(struct command *command);

@@ -10,8 +10,8 @@ MUST_CHECK enum result draw_frames(struct command *command, struct error *err);
 /* Refuses a file that can't be made. Devices and pipes are opened only when they are written. */
 MUST_CHECK enum result draw_check_place(const char *path, struct error *err);
 
-/* Opens the passes unless they are, renders and checks one frame, shows how far it is, and warns; `frame` ("frame 3: ", or
- * empty) names it in messages. The caller frees *gbuffer and closes *passes, also after a failure. */
+/* Opens the passes unless they are, renders and checks one frame, shows how far it is, and warns; `frame` ("frame 3: ",
+ * or empty) names it in messages. The caller frees *gbuffer and closes *passes, also after a failure. */
 MUST_CHECK enum result draw_passes(struct command *command, struct passes **passes, int number, const char *frame,
                                    struct gbuffer *gbuffer, struct error *err);
 

@@ -1,7 +1,8 @@
 /* Results and error messages of the library.
  *
  * A function that can fail returns enum result and takes a struct error last. Its numbers are the programs' exit
- * statuses. A message says which file, what, why and, where there is one, the cure; it ends without a period or newline.
+ * statuses. A message says which file, what, why and, where there is one, the cure; it ends without a period or
+ * newline.
  */
 #ifndef POVGLOSS_ERROR_H
 #define POVGLOSS_ERROR_H

@@ -54,8 +54,8 @@ struct rays {
     int step_x, step_y;
 };
 
-/* The sum over all lines of w (I - d d^T), w = 1 / |position - eye|^2 (1 in the first round), and of its product with the
- * position; its solution is the eye. */
+/* The sum over all lines of w (I - d d^T), w = 1 / |position - eye|^2 (1 in the first round), and of its product with
+ * the position; its solution is the eye. */
 static bool nearest_point(const struct rays *rays, const double *eye, double nearest[3])
 {
     double m[3][3] = {{0}}, right[3] = {0};

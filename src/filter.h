@@ -38,7 +38,8 @@ struct filter_options {
 #define FILTER_TOLERANCE_FINE 0.002
 #define FILTER_TOLERANCE_FAST 0.006
 
-/* Best; exact sums, exact weights, Phong formula, round window, no exponent, the mode's energy, no limits, radius at every pixel. */
+/* Best; exact sums, exact weights, Phong formula, round window, no exponent, the mode's energy, no limits, radius at
+ * every pixel. */
 struct filter_options filter_options_default(void);
 
 /* glossy (allocated here, 3 channels; the caller frees it) = the specular plane blurred where the pixel is glossy;
@@ -46,11 +47,11 @@ struct filter_options filter_options_default(void);
  * results, at most 3 pixels away; 0 elsewhere. measure, where not NULL, is allocated too, 1 channel, 0 where not
  * glossy: of the paper the radius of equation (5) in pixels, of the best filter the confidence.
  *
- * FILTER_MODE_PAPER: equation (1). FILTER_MODE_BEST: sum f L0 / sum f over the pixels whose endpoints b' the pixel's own
- * a sees, f = max(cos^p(theta) - (1 - energy), 0) times the solid angle at a of the area that b' stands for.
+ * FILTER_MODE_PAPER: equation (1). FILTER_MODE_BEST: sum f L0 / sum f over the pixels whose endpoints b' the pixel's
+ * own a sees, f = max(cos^p(theta) - (1 - energy), 0) times the solid angle at a of the area that b' stands for.
  * - That area: of the pixel's directions, seen from its own a, the cross product of the differences across and down (of
- *   the two neighbours on an axis the one that differs less), times its distance squared. From a it is the area over the
- *   distance from a squared, less where that comes near a hemisphere: A / (r^2 + A / 2 pi).
+ *   the two neighbours on an axis the one that differs less), times its distance squared. From a it is the area over
+ *   the distance from a squared, less where that comes near a hemisphere: A / (r^2 + A / 2 pi).
  * - Seen: see filter_see in filter_kernel.h. A non-glossy pixel hides what a surface that goes on like the pixel's own
  *   would no longer reflect.
  * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of
@@ -69,24 +70,24 @@ struct filter_options filter_options_default(void);
  * better), tabulated ones to 3.2e-5 more.
  *
  * The fast filter (tolerance above 0) sums every 16th pixel of every 16th row, and halves these distances until all
- * pixels are known: interpolated (cubic, or linear at edges) where position and direction are what interpolation gives and
- * where it came within the tolerance of the sums beside it, else summed. The sums beyond 8, 16, 32 or 64 pixels from the
- * pixel's own are taken from cells of 2 x 2, 4 x 4 ... pixels, that stand for the mean by solid angle of what is in them;
- * the first of these reaches that is within the tolerance, found at every 16th pixel, serves for those between. What is
- * small and between the first pixels can be missed: docs/performance.md has the errors measured.
+ * pixels are known: interpolated (cubic, or linear at edges) where position and direction are what interpolation gives
+ * and where it came within the tolerance of the sums beside it, else summed. The sums beyond 8, 16, 32 or 64 pixels
+ * from the pixel's own are taken from cells of 2 x 2, 4 x 4 ... pixels, that stand for the mean by solid angle of what
+ * is in them; the first of these reaches that is within the tolerance, found at every 16th pixel, serves for those
+ * between. What is small and between the first pixels can be missed: docs/performance.md has the errors measured.
  *
  * A gbuffer with a window has the results that its picture needs alone; the rest of both images is 0.
  *
- * Only the angle theta between two endpoints, seen from a, counts: that an endpoint lies behind the surface isn't known.
- * The weight is 1 at theta = 0, and 0 from 90 degrees on, for p = 0, too. Weights below 2^-120 are 0. p is any float
- * from 0 to infinity; below about 1e-6 the lobe is uniform. Radiance may be negative and of any size; a result that no
- * float holds is the largest one, and denormal radiance keeps the digits that it has.
+ * Only the angle theta between two endpoints, seen from a, counts: that an endpoint lies behind the surface isn't
+ * known. The weight is 1 at theta = 0, and 0 from 90 degrees on, for p = 0, too. Weights below 2^-120 are 0. p is any
+ * float from 0 to infinity; below about 1e-6 the lobe is uniform. Radiance may be negative and of any size; a result
+ * that no float holds is the largest one, and denormal radiance keeps the digits that it has.
  *
  * The pixel itself always counts. The result is L0 itself where p is 1e20 or more, where r = 0 (wherever the eye is),
  * where no other weight is above 0 and, in the paper's filter, where the radius is below 1. An eye on the surface
- * (s = 0) gives the radius of Theta itself; no radius exceeds the picture's diagonal. Without an eye or view angle it is
- * Theta over the angle between the endpoints of neighbouring pixels, seen from a: the smallest over the glossy ones of
- * the four neighbours; 0 where there are none.
+ * (s = 0) gives the radius of Theta itself; no radius exceeds the picture's diagonal. Without an eye or view angle it
+ * is Theta over the angle between the endpoints of neighbouring pixels, seen from a: the smallest over the glossy ones
+ * of the four neighbours; 0 where there are none.
  *
  * RESULT_USAGE: no exponent, or an instruction set this processor lacks. RESULT_DATA: missing planes or sizes that
  * differ, memory. RESULT_INTERRUPTED. On failure both images are empty.
@@ -95,8 +96,8 @@ MUST_CHECK enum result filter_glossy(const struct gbuffer *gbuffer, const struct
                                      struct image *glossy, struct image *radius, struct error *err);
 
 /* Pixels that are meant to be glossy, by an endpoint that isn't all zero and an exponent that isn't 0, and yet are not:
- * an exponent below 0 or NaN, W below 0, or NaN or infinity in position, endpoint or specular. The planes must be there,
- * of one size. */
+ * an exponent below 0 or NaN, W below 0, or NaN or infinity in position, endpoint or specular. The planes must be
+ * there, of one size. */
 long filter_left_out(const struct gbuffer *gbuffer);
 
 #endif

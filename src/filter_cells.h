@@ -1,4 +1,5 @@
-/* Taps for the fast filter: cells of 2^n x 2^n pixels, in the order in which 16 pixels some columns apart look at them. */
+/* Taps for the fast filter: cells of 2^n x 2^n pixels, in the order in which 16 pixels some columns apart look at
+ * them. */
 #ifndef POVGLOSS_FILTER_CELLS_H
 #define POVGLOSS_FILTER_CELLS_H
 

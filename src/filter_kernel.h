@@ -117,11 +117,11 @@ filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;
 
 /* Sums over the taps that every lane's a sees: weights (cos^p - floor) times the solid angle of the tap's pixel.
  *
- * All that the camera sees in the mirror along a straight line of pixels from the lane's own lies in one plane, and is in
- * front of what follows on the line. A tap is hidden from a when a tap before it on the line was at an angle theta
+ * All that the camera sees in the mirror along a straight line of pixels from the lane's own lies in one plane, and is
+ * in front of what follows on the line. A tap is hidden from a when a tap before it on the line was at an angle theta
  * larger by some tolerance: then the line from a to its b passes behind that one. The taps that are seen are thus one
- * patch around the lane's own pixel, which grows until all of its rim is out of reach. On the way to a tap lie both neighbours between
- * which the straight line comes in, and the one with less in the way counts.
+ * patch around the lane's own pixel, which grows until all of its rim is out of reach. On the way to a tap lie both
+ * neighbours between which the straight line comes in, and the one with less in the way counts.
  *
  * Whether anything is seen beyond the ring's outer end.
  *

@@ -3,8 +3,8 @@
  * First every 16th pixel of every 16th row is summed. Then the pixels halfway between two are looked at, row by row and
  * column by column in turn, until none is left. A pixel is interpolated where its own direction and position are what
  * interpolation gives, and where beside it a pixel was summed that interpolation had met within the tolerance. The
- * first pixels are summed both by all taps and by rings of ever larger cells of them, and the quickest rings that come within
- * the tolerance serve for the pixels between.
+ * first pixels are summed both by all taps and by rings of ever larger cells of them, and the quickest rings that come
+ * within the tolerance serve for the pixels between.
  */
 #include "filter_sparse.h"
 

@@ -26,7 +26,8 @@ struct frames frames_plan(const struct frames_options *options);
 /* How many images there are: 1 or more. */
 int frames_count(const struct frames *frames);
 
-/* What POV-Ray puts before the extension of a frame's file: "03" where the last frame is 10; empty for a single image. */
+/* What POV-Ray puts before the extension of a frame's file: "03" where the last frame is 10; empty for a single
+ * image. */
 void frames_number(const struct frames *frames, int frame, char number[FRAMES_NUMBER_SIZE]);
 
 /* The path with the frame's number before its extension; the caller frees it. */

@@ -30,13 +30,13 @@ struct gbuffer {
 
 #define GBUFFER_GAMMA_SRGB (-1.0f)
 
-/* Whether something glossy is at the pixel: its exponent is above 0 (or there is no plane of them), its endpoint not all
- * zero. */
+/* Whether something glossy is at the pixel: its exponent is above 0 (or there is no plane of them), its endpoint not
+ * all zero. */
 bool gbuffer_is_glossy(const struct gbuffer *gbuffer, int x, int y);
 
-/* Puts the pixels of `part` where all planes of *whole are 0, and frees it: bands of one picture, each rendered by itself
- * in planes of the whole size that are 0 elsewhere. Of the eye and the view angle those of the first that has them count.
- * RESULT_DATA: planes or sizes differ; *part is freed then, too. */
+/* Puts the pixels of `part` where all planes of *whole are 0, and frees it: bands of one picture, each rendered by
+ * itself in planes of the whole size that are 0 elsewhere. Of the eye and the view angle those of the first that has
+ * them count. RESULT_DATA: planes or sizes differ; *part is freed then, too. */
 MUST_CHECK enum result gbuffer_join(struct gbuffer *whole, struct gbuffer *part, struct error *err);
 
 /* Frees all planes and clears the rest. */

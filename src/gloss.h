@@ -47,10 +47,10 @@ struct gloss_options {
 /* Blurs `specular` into the three planes of `glossy` (R G B, the same size and stride); 0 where nothing is glossy. The
  * picture is base + reflectance * glossy. A pixel with an exponent below 0 or NaN, W below 0, or NaN or infinity in its
  * specular, position or endpoint counts as not glossy, and nothing of it spreads; an exponent of 1e20 or more, and an
- * endpoint that touches the surface, give its specular itself; the angle between endpoints alone counts, so that lengths
- * times any factor give the same result. The result doesn't depend on the number of threads. On failure a message is
- * written to `message` (`message_size` bytes with the NUL; may be NULL, 0), and `glossy` is as it was. May be called
- * from several threads at a time. */
+ * endpoint that touches the surface, give its specular itself; the angle between endpoints alone counts, so that
+ * lengths times any factor give the same result. The result doesn't depend on the number of threads. On failure a
+ * message is written to `message` (`message_size` bytes with the NUL; may be NULL, 0), and `glossy` is as it was. May
+ * be called from several threads at a time. */
 enum gloss_status gloss_filter(const struct gloss_planes *planes, const struct gloss_options *options,
                                float *const glossy[3], char *message, size_t message_size);
 

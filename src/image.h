@@ -30,8 +30,8 @@ MUST_CHECK enum result image_alloc(struct image *image, int width, int height, i
 /* Frees the pixels and leaves an empty image; an empty image is fine. */
 void image_free(struct image *image);
 
-/* Replaces the image by what the window shows of it, 0 outside of it. RESULT_DATA: sizes, memory; the image is then as it
- * was. */
+/* Replaces the image by what the window shows of it, 0 outside of it. RESULT_DATA: sizes, memory; the image is then as
+ * it was. */
 MUST_CHECK enum result image_crop(struct image *image, const struct image_window *window, struct error *err);
 
 /* First float of row y of a channel. */

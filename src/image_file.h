@@ -12,8 +12,8 @@ MUST_CHECK enum result image_format_choose(const char *path, const char *name, e
                                            struct error *err);
 
 /* Writes the first 3 channels of a linear image as R G B. EXR: 32-bit float, with the layers (further channels of
- * images of the same size; none: NULL, 0); PNG: sRGB of 8 or 16 bits, and RESULT_USAGE if there are layers. "-" is standard
- * output; otherwise the file appears whole or not at all. */
+ * images of the same size; none: NULL, 0); PNG: sRGB of 8 or 16 bits, and RESULT_USAGE if there are layers. "-" is
+ * standard output; otherwise the file appears whole or not at all. */
 MUST_CHECK enum result image_write(const char *path, enum image_format format, int bits, const struct image *image,
                                    const struct exr_channel *layers, int layer_count, struct error *err);
 

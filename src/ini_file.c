@@ -1,5 +1,5 @@
-/* Reads .ini files as POV-Ray does: several switches may share a line, what follows a setting on its line doesn't count,
- * and a value without quotes ends at a blank unless the rest of the line can only belong to it. */
+/* Reads .ini files as POV-Ray does: several switches may share a line, what follows a setting on its line doesn't
+ * count, and a value without quotes ends at a blank unless the rest of the line can only belong to it. */
 #include "ini_file.h"
 
 #include "input_file.h"

@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-/* Takes one line as an argument of POV-Ray's command line, without quotes and blanks: "Width=640", "+W640", or a file. A
- * setting with several values ("Library_Path=a,b") comes once for each. A result but RESULT_OK ends the reading. */
+/* Takes one line as an argument of POV-Ray's command line, without quotes and blanks: "Width=640", "+W640", or a file.
+ * A setting with several values ("Library_Path=a,b") comes once for each. A result but RESULT_OK ends the reading. */
 typedef enum result ini_file_take(void *context, const char *argument, struct error *err);
 
 /* The length of the path in `path` or `path[section]`. */

@@ -45,8 +45,8 @@ static void mean(const struct image *from, int channels, const struct sample *sa
     }
 }
 
-/* Positions are averaged as they are. With a miss among the samples all are averaged as unit directions seen from their own
- * a, and the result is a direction. */
+/* Positions are averaged as they are. With a miss among the samples all are averaged as unit directions seen from their
+ * own a, and the result is a direction. */
 static void mean_endpoint(const struct gbuffer *from, const struct sample *samples, int count, struct gbuffer *to, int x,
                           int y)
 {

@@ -1,4 +1,5 @@
-/* povgloss: a POV-Ray scene in, its glossy image (render), its passes file (passes) or true values of it (probe) out. */
+/* povgloss: a POV-Ray scene in, its glossy image (render), its passes file (passes) or true values of it (probe)
+ * out. */
 #include "draw.h"
 #include "interrupt.h"
 #include "measure.h"

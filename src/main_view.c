@@ -1,8 +1,8 @@
 /* The window of glossfilter --view: the picture, and a slider for its roughness.
  *
- * A change is shown at once from a reduced gbuffer, as coarse as the filter needs to keep up; a thread then works through the
- * finer ones up to the whole picture, and is stopped when the roughness changes. It is a program of its own,
- * so that glossfilter doesn't load SDL2 for everything else.
+ * A change is shown at once from a reduced gbuffer, as coarse as the filter needs to keep up; a thread then works
+ * through the finer ones up to the whole picture, and is stopped when the roughness changes. It is a program of its
+ * own, so that glossfilter doesn't load SDL2 for everything else.
  */
 #include "cli.h"
 #include "gamma.h"

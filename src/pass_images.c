@@ -85,8 +85,8 @@ enum result pass_images_radiance(const struct pass_images *images, enum pass_id 
     return result;
 }
 
-/* `exponents`: the image of that pass, whose third channel is the share that a glossy surface has in a mixed texture; NULL or
- * empty: none is mixed. */
+/* `exponents`: the image of that pass, whose third channel is the share that a glossy surface has in a mixed texture;
+ * NULL or empty: none is mixed. */
 static enum result read_coded(const struct pass_images *images, enum pass_id high_id, enum pass_id low_id,
                               const struct image *exponents, struct image *decoded, struct error *err)
 {
@@ -142,8 +142,8 @@ static void scale_reflectance(struct image *reflectance, double gamma)
         }
 }
 
-/* What is between the eye and the glossy surface is part of the base: of the specular pass only the rest is left, L0 as far as
- * it gets through. */
+/* What is between the eye and the glossy surface is part of the base: of the specular pass only the rest is left, L0 as
+ * far as it gets through. */
 static enum result clear_haze(const struct pass_images *images, struct image *specular, struct error *err)
 {
     const double gamma = images->scene->working_gamma;
@@ -186,7 +186,8 @@ static bool any_nonzero(const struct image *image, int x, int y)
     return any;
 }
 
-/* A total reflection in something transparent isn't of a glossy finish: it shows the exponent pass's white sky undimmed. */
+/* A total reflection in something transparent isn't of a glossy finish: it shows the exponent pass's white sky
+ * undimmed. */
 static bool is_total_reflection(const struct image *codes, int x, int y)
 {
     return codes->pixels && image_row(codes, 2, y)[x] > LEAST_SHARE &&
@@ -220,8 +221,8 @@ static void fill_exponents(struct gbuffer *gbuffer, double single, const struct 
         }
 }
 
-/* A weighted specular pass holds L0 as the surfaces reflect it: divided by their reflectivity, mixed alike, it is L0 again. A
- * pixel that reflects nothing isn't glossy. */
+/* A weighted specular pass holds L0 as the surfaces reflect it: divided by their reflectivity, mixed alike, it is L0
+ * again. A pixel that reflects nothing isn't glossy. */
 static enum result divide_specular(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
 {
     const double gamma = images->scene->working_gamma;
@@ -261,8 +262,8 @@ static void copy_surface(struct gbuffer *gbuffer, size_t from, size_t to)
         }
 }
 
-/* The aperture sees glossy surfaces beyond the silhouettes that its centre sees: there they have a, b and the exponent of the
- * nearest glossy pixel. */
+/* The aperture sees glossy surfaces beyond the silhouettes that its centre sees: there they have a, b and the exponent
+ * of the nearest glossy pixel. */
 static enum result widen_surfaces(struct gbuffer *gbuffer, struct error *err)
 {
     const int width = gbuffer->phong.width, height = gbuffer->phong.height;
@@ -370,8 +371,8 @@ static bool glossy_around(const struct image *phong, int x, int y)
     return false;
 }
 
-/* The reflectance pass sees through everything that the eye sees through. Where it finds a glossy reflection and the other
- * passes no glossy surface, not even at a silhouette, that reflection is missing in the picture. */
+/* The reflectance pass sees through everything that the eye sees through. Where it finds a glossy reflection and the
+ * other passes no glossy surface, not even at a silhouette, that reflection is missing in the picture. */
 static void note_lost(const struct gbuffer *gbuffer, const char *scene, struct error *note)
 {
     const double least = 0.02, share = 0.001;

@@ -31,14 +31,15 @@ MUST_CHECK enum result pass_images_radiance(const struct pass_images *images, en
 MUST_CHECK enum result pass_images_glossy(const struct pass_images *images, struct image_window *window,
                                           struct error *err);
 
-/* The picture's camera, with its location, from the passes that find it, and the picture's size. *found is false where it
- * isn't a perspective camera or sees nothing to tell its location by. */
+/* The picture's camera, with its location, from the passes that find it, and the picture's size. *found is false where
+ * it isn't a perspective camera or sees nothing to tell its location by. */
 MUST_CHECK enum result pass_images_camera(const struct pass_images *images, struct camera *camera, bool *found,
                                           int *width, int *height, struct error *err);
 
-/* Reads and decodes all of them into *gbuffer: a and b, the eye, exponents, reflectance in the working space; subsampled
- * passes interpolated; with a margin the window is the picture in them. RESULT_DATA where an image is missing, broken or of another size than the others; then, too, the
- * caller frees the gbuffer. *note is a warning worth a line where nothing glossy is seen. */
+/* Reads and decodes all of them into *gbuffer: a and b, the eye, exponents, reflectance in the working space;
+ * subsampled passes interpolated; with a margin the window is the picture in them. RESULT_DATA where an image is
+ * missing, broken or of another size than the others; then, too, the caller frees the gbuffer. *note is a warning worth
+ * a line where nothing glossy is seen. */
 MUST_CHECK enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
                                         struct error *err);
 

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What povgloss_end puts last into every finish. Later items of a finish override earlier ones; povgloss_phong is 0 or more
- * when the finish is glossy, povgloss_reflects is 1 when it names a reflection of its own. A finish without either keeps
- * what it has. */
+/* What povgloss_end puts last into every finish. Later items of a finish override earlier ones; povgloss_phong is 0 or
+ * more when the finish is glossy, povgloss_reflects is 1 when it names a reflection of its own. A finish without either
+ * keeps what it has. */
 static const char end_base[] = "#if (povgloss_phong >= 0) reflection { 0 } #end";
 static const char end_mirror[] = "povgloss_dark()\n"
                                  "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
@@ -17,13 +17,14 @@ static const char end_mirror[] = "povgloss_dark()\n"
                                  "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
 static const char end_haze[] = "povgloss_dark()\n"
                                "  #if (povgloss_phong >= 0 | povgloss_reflects) reflection { 0 } #end";
-/* The same where a glossy finish keeps its reflectivity: any other reflects something next to white (to the power 1e-6), in the
- * haze as well. */
+/* The same where a glossy finish keeps its reflectivity: any other reflects something next to white (to the power
+ * 1e-6), in the haze as well. */
 #define PLAIN_WHITE "#else #if (povgloss_reflects) reflection_exponent 1e6 #end #end"
 static const char end_reflection[] = "povgloss_dark()\n  #if (povgloss_phong >= 0) reflection_exponent 1\n  " PLAIN_WHITE;
 static const char end_haze_of_reflection[] = "povgloss_dark()\n  #if (povgloss_phong >= 0) reflection { 0 }\n  " PLAIN_WHITE;
-/* The sky is next to black, as a total reflection shows it, which isn't glossy. POV-Ray takes what a finish reflects to the
- * power 1/exponent: 20 makes one half of the sky, 0.001 nothing, and leaves the reflectivity for a later Gloss(). */
+/* The sky is next to black, as a total reflection shows it, which isn't glossy. POV-Ray takes what a finish reflects to
+ * the power 1/exponent: 20 makes one half of the sky, 0.001 nothing, and leaves the reflectivity for a later
+ * Gloss(). */
 static const char end_reflectance[] = "povgloss_dark()\n"
                                       "  #if (povgloss_phong >= 0) reflection_exponent 20\n"
                                       "  #else #if (povgloss_reflects) reflection_exponent 0.001 #end #end";
@@ -43,7 +44,8 @@ static const char sky_white[] = SKY("1");
 #define MIRRORS "no_reflection no_shadow no_radiosity"
 #define SEEN_IN_MIRRORS "no_image"
 static const char outside[] = "povgloss_leave_copy() object { povgloss_object } povgloss_enter_copy()";
-/* From this transparency on a surface before a glossy one is looked through. A mirrored ray ends where most of it does. */
+/* From this transparency on a surface before a glossy one is looked through. A mirrored ray ends where most of it
+ * does. */
 #define CLEAR 0.01
 #define MOSTLY_CLEAR 0.5
 
@@ -247,17 +249,17 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
     return result;
 }
 
-/* What a texture refers to. A #default has a state, too, and its finish in two forms: povgloss_plain as it is written, and
- * povgloss_shiny, which is glossy where the state says so. The latter is the default but while a transparent pigment takes
- * it.
+/* What a texture refers to. A #default has a state, too, and its finish in two forms: povgloss_plain as it is written,
+ * and povgloss_shiny, which is glossy where the state says so. The latter is the default but while a transparent
+ * pigment takes it.
  * The state of a finish is a vector: x the exponent of its Gloss() or of the user's choice for the
- * name that is being declared, or -1; y whether it reflects; z the exponent of its highlight's lobe, or -1; t how transparent
- * the pigment with it is, and all layers below. Automatic gloss leaves transparent surfaces alone: what they reflect inside
- * can't be blurred. POV-Ray's specular highlight is a power 1/roughness of the cosine about the half vector, whose angle is
- * half of that from the mirror direction: an exponent of 1/(4 roughness) there. phong_size is an exponent about the mirror
- * direction.
- * povgloss_counts is how many glossy textures came by (x), transparent ones (y), objects by names of which neither is known
- * (z), and transparent mirrors without gloss (t). */
+ * name that is being declared, or -1; y whether it reflects; z the exponent of its highlight's lobe, or -1; t how
+ * transparent the pigment with it is, and all layers below. Automatic gloss leaves transparent surfaces alone: what
+ * they reflect inside can't be blurred. POV-Ray's specular highlight is a power 1/roughness of the cosine about the
+ * half vector, whose angle is half of that from the mirror direction: an exponent of 1/(4 roughness) there. phong_size
+ * is an exponent about the mirror direction.
+ * povgloss_counts is how many glossy textures came by (x), transparent ones (y), objects by names of which neither is
+ * known (z), and transparent mirrors without gloss (t). */
 static enum result add_state_macros(const struct scene *scene, struct buffer *text, struct error *err)
 {
     const struct gloss_choice *choice = scene->choice;
@@ -333,9 +335,9 @@ static bool is_base(const struct scene_part *part)
     return part->copy == SCENE_COPY_BASE || part->copy == SCENE_COPY_BASE_FIRST || part->copy == SCENE_COPY_BASE_SECOND;
 }
 
-/* A finish with a Gloss_Map has an exponent from povgloss_painted on in its state. Where exponents are drawn each map becomes
- * a pigment of codes, which takes the place of the finish's own from there on where the texture transforms it, and the
- * exponent is then (2 + its number in povgloss_maps) povgloss_painted. */
+/* A finish with a Gloss_Map has an exponent from povgloss_painted on in its state. Where exponents are drawn each map
+ * becomes a pigment of codes, which takes the place of the finish's own from there on where the texture transforms it,
+ * and the exponent is then (2 + its number in povgloss_maps) povgloss_painted. */
 static enum result add_map_macros(const struct pass *pass, struct buffer *text, struct error *err)
 {
     return buffer_printf(
@@ -520,8 +522,8 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
         free(name);
         return result;
     }
-    /* Objects of a union that have no interior of their own share one, which is as hollow as the last of them: where it is,
-     * the haze fills their hollow ones. */
+    /* Objects of a union that have no interior of their own share one, which is as hollow as the last of them: where it
+     * is, the haze fills their hollow ones. */
     if (!result)
         result = buffer_printf(text, err, "#macro povgloss_modifiers()\n%s%s\n",
                                scene->atmosphere ? "povgloss_nothing() " : "", part->modifiers);
@@ -559,7 +561,8 @@ static bool may_hold_clear(const struct scene *scene)
     return false;
 }
 
-/* Whether a mirror without gloss may show a glossy surface. With --gloss all only transparent surfaces are such mirrors. */
+/* Whether a mirror without gloss may show a glossy surface. With --gloss all only transparent surfaces are such
+ * mirrors. */
 static bool scene_mirrors_gloss(const struct scene *scene)
 {
     return scene->plain_mirrors && (!scene->choice->all || may_hold_clear(scene));
@@ -573,8 +576,8 @@ bool pass_weights_specular(const struct scene *scene)
 struct pass pass_of(const struct scene *scene, enum pass_id id)
 {
     struct pass pass = pass_table[id];
-    /* The second copy is needed only where a glossy surface is seen in a mirror, and where the light counts that it throws
-     * onto others. Light under a surface is lost where a second copy of the surface lies on it. */
+    /* The second copy is needed only where a glossy surface is seen in a mirror, and where the light counts that it
+     * throws onto others. Light under a surface is lost where a second copy of the surface lies on it. */
     bool doubled = scene->glossy && !scene->limits[SCENE_LIMIT_SUBSURFACE].line &&
                    (scene_mirrors_gloss(scene) || scene->radiosity);
     if (id == PASS_BASE && !doubled) {
@@ -607,7 +610,8 @@ enum result pass_discovery_text(const struct scene *scene, struct buffer *text, 
     return result;
 }
 
-/* Photons don't meet what is no_image, and nothing reflects them in the base: all passes take those of the scene itself. */
+/* Photons don't meet what is no_image, and nothing reflects them in the base: all passes take those of the scene
+ * itself. */
 static enum result add_photon_macro(enum pass_id id, struct buffer *text, struct error *err)
 {
     return buffer_add_text(text,
@@ -677,7 +681,8 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
         return false;
     if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;
-    /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye, too. */
+    /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye,
+     * too. */
     if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line && !pass_weights_specular(scene))
         return false;
     if (id == PASS_REFLECTIVITY && !pass_weights_specular(scene))

@@ -1,7 +1,7 @@
 /* The scene of every pass: one table says which copies of the user's scene it holds and how it is rendered.
  *
- * A pass is one or two copies (scene_rewrite.h), each in a union whose flags say which rays see it; what each pass is for
- * stands in passes.h.
+ * A pass is one or two copies (scene_rewrite.h), each in a union whose flags say which rays see it; what each pass is
+ * for stands in passes.h.
  */
 #ifndef POVGLOSS_PASS_SCENE_H
 #define POVGLOSS_PASS_SCENE_H
@@ -33,8 +33,8 @@ enum pass_id {
 };
 
 #define PASS_PHOTONS_FILE "photons.ph"
-/* Left by the base pass in its folder: index of the file and line of the first object that holds something transparent and
- * something glossy, and of the first that holds a transparent mirror without gloss. */
+/* Left by the base pass in its folder: index of the file and line of the first object that holds something transparent
+ * and something glossy, and of the first that holds a transparent mirror without gloss. */
 #define PASS_MIXED_FILE "povgloss_mixed.txt"
 #define PASS_GLASS_FILE "povgloss_glass.txt"
 #define PASS_PROBE_VIEW "view.inc"
@@ -72,13 +72,13 @@ extern const struct pass pass_table[PASS_COUNT];
 /* The pass as this scene takes it. */
 struct pass pass_of(const struct scene *scene, enum pass_id id);
 
-/* Whether the specular pass holds L0 times the reflectivity: a pixel of focal blur or of a mixed texture is the sum of what
- * several glossy surfaces reflect. */
+/* Whether the specular pass holds L0 times the reflectivity: a pixel of focal blur or of a mixed texture is the sum of
+ * what several glossy surfaces reflect. */
 bool pass_weights_specular(const struct scene *scene);
 
-/* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the haze
- * where it has one, or media, or a weighted specular pass, which then has a reflectivity, too; antialiased exponents where one
- * is painted. */
+/* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the
+ * haze where it has one, or media, or a weighted specular pass, which then has a reflectivity, too; antialiased
+ * exponents where one is painted. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Whether the exponent pass says more than where something is glossy: there are several exponents, a texture may mix a

@@ -1,6 +1,6 @@
 /* The way from a scene to a gbuffer: find its files (with a run of POV-Ray where only it knows them), write the passes'
- * scenes, run POV-Ray on all of them at the same time, and read the images. The passes themselves stand in pass_scene.c,
- * their decoding in pass_images.c.
+ * scenes, run POV-Ray on all of them at the same time, and read the images. The passes themselves stand in
+ * pass_scene.c, their decoding in pass_images.c.
  */
 #include "passes.h"
 
@@ -278,7 +278,8 @@ static void picture_size(const struct passes *passes, int *width, int *height)
     *height = switches->height ? switches->height : POVRAY_HEIGHT;
 }
 
-/* A few thousand positions tell where the eye is; the proportion, which a camera may depend on, is that of the picture. */
+/* A few thousand positions tell where the eye is; the proportion, which a camera may depend on, is that of the
+ * picture. */
 static enum result add_place_size(const struct passes *passes, struct text_list *arguments, struct error *err)
 {
     enum { LEAST_SIDE = 32 };
@@ -409,8 +410,8 @@ static enum result report_failure(const struct passes *passes, const struct povr
     return RESULT_POVRAY;
 }
 
-/* The environment, but for the .ini file that POV-Ray reads by itself, which the switches hold, and with LD_PRELOAD where
- * what is read is to be noted. */
+/* The environment, but for the .ini file that POV-Ray reads by itself, which the switches hold, and with LD_PRELOAD
+ * where what is read is to be noted. */
 static enum result make_environment(struct passes *passes, struct error *err)
 {
     static char no_ini[] = "POVINI=../" EMPTY_INI;
@@ -646,8 +647,8 @@ static int clamp(int value, int low, int high)
     return value < low ? low : value > high ? high : value;
 }
 
-/* Limits the pass to the glossy window, whose pixels are those of the exponent pass. It begins where a block of the whole
- * picture begins: POV-Ray antialiases block by block. */
+/* Limits the pass to the glossy window, whose pixels are those of the exponent pass. It begins where a block of the
+ * whole picture begins: POV-Ray antialiases block by block. */
 static enum result add_glossy_window(struct run *run, int index, const struct image_window *window, struct error *err)
 {
     struct passes *passes = run->passes;

@@ -1,10 +1,10 @@
 /* The passes of a POV-Ray scene: which are rendered, how each scene is written, and what is made of their images.
  *
  *   base         the scene with the glossy finishes' reflection switched off
- *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors and the rest is black, mirrored
- *                rays see the scene itself; with focal blur and mixed textures times the reflectivity
- *   haze         where there is fog, a rainbow or media, or L0 is weighted: the same without mirrors, which is what they add before the glossy
- *                surface to the specular pass
+ *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors and the rest is black,
+ *                mirrored rays see the scene itself; with focal blur and mixed textures times the reflectivity
+ *   haze         where there is fog, a rainbow or media, or L0 is weighted: the same without mirrors, which is what
+ *                they add before the glossy surface to the specular pass
  *   reflectance  glossy surfaces with their own reflection and no shading, under a sky of one half
  *   reflectivity the same by one ray a pixel, by which a weighted L0 is divided
  *   position     a, coded as a colour (position_code.h)
@@ -53,19 +53,20 @@ struct passes;
  * failure. */
 MUST_CHECK enum result passes_load_scene(const struct passes_options *options, struct scene *scene, struct error *err);
 
-/* Reads the scene and writes the passes' scenes. RESULT_DATA for a scene that can't be taken (with file and line) or that
- * has nothing glossy. *note is a warning worth a line to the user, or empty. The options are not copied: they must outlive
- * *passes. The caller closes *passes, also after a failure. */
+/* Reads the scene and writes the passes' scenes. RESULT_DATA for a scene that can't be taken (with file and line) or
+ * that has nothing glossy. *note is a warning worth a line to the user, or empty. The options are not copied: they must
+ * outlive *passes. The caller closes *passes, also after a failure. */
 MUST_CHECK enum result passes_open(const struct passes_options *options, struct passes **passes, struct error *note,
                                    struct error *err);
 
-/* Renders all passes of one frame into *gbuffer, which the caller frees. RESULT_POVRAY with POV-Ray's own message, named by
- * the user's files. *note as above. No process is left. */
+/* Renders all passes of one frame into *gbuffer, which the caller frees. RESULT_POVRAY with POV-Ray's own message,
+ * named by the user's files. *note as above. No process is left. */
 MUST_CHECK enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
                                      struct error *err);
 
-/* Compares what passes_render made of the frame with POV-Ray's own picture, unless `check` is false or only a part of the
- * picture is rendered. *note is a warning where they differ: something in the scene isn't modelled by the passes. */
+/* Compares what passes_render made of the frame with POV-Ray's own picture, unless `check` is false or only a part of
+ * the picture is rendered. *note is a warning where they differ: something in the scene isn't modelled by the
+ * passes. */
 MUST_CHECK enum result passes_check_sum(const struct passes *passes, int frame, const struct gbuffer *gbuffer,
                                     struct error *note, struct error *err);
 /* Renders what mirrored rays see of the frame that passes_render drew last. `view` is scene text: a camera, and mirrors

@@ -16,8 +16,8 @@
 #include "gbuffer.h"
 
 /* Reads `path` ("-": standard input) into *gbuffer, which the caller frees: all parts, by our names or other renderers'
- * (channels.h). The planes hold the data window, gbuffer->window is the display window in it; povgloss:viewAngle, that of
- * the display window, is widened to the planes.
+ * (channels.h). The planes hold the data window, gbuffer->window is the display window in it; povgloss:viewAngle, that
+ * of the display window, is widened to the planes.
  *
  * specular, P and endpoint are required: a file without one of them is refused by name (RESULT_DATA). On failure
  * *gbuffer is empty. */

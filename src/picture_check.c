@@ -1,4 +1,5 @@
-/* The comparison with the renderer's own picture: what differs in the mean of blocks, and which neighbours do so together. */
+/* The comparison with the renderer's own picture: what differs in the mean of blocks, and which neighbours do so
+ * together. */
 #include "picture_check.h"
 
 #include <math.h>

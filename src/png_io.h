@@ -8,8 +8,9 @@
  * 65535), with no gamma applied: 16-bit codes come back exactly. */
 MUST_CHECK enum result png_read(const char *path, struct image *image, struct error *err);
 
-/* Writes the first 3 channels of a linear image through the sRGB transfer curve at 8 or 16 bits, tagged sRGB; values are
- * clipped to [0, 1], NaN becomes 0. `path` "-" is standard output; else through a temporary file in the same folder. */
+/* Writes the first 3 channels of a linear image through the sRGB transfer curve at 8 or 16 bits, tagged sRGB; values
+ * are clipped to [0, 1], NaN becomes 0. `path` "-" is standard output; else through a temporary file in the same
+ * folder. */
 MUST_CHECK enum result png_write_srgb(const char *path, const struct image *image, int bits, struct error *err);
 
 #endif

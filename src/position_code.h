@@ -2,8 +2,8 @@
  *
  * A point p is coded as q = p/|p| (1/20 + 9/10 (log10 |p| + 12)/24) for |p| from 1e-12 to 1e12, so that its relative
  * precision is the same at every scale; a direction is q with |q| = 1. The digits v = 1/2 + 0.499 q lie strictly inside
- * (0, 1): black is "nothing here". A first image holds v in 16 bits, a second one the fraction of 16384 v; together they
- * have 30 bits, a relative error of |p| below 1e-7.
+ * (0, 1): black is "nothing here". A first image holds v in 16 bits, a second one the fraction of 16384 v; together
+ * they have 30 bits, a relative error of |p| below 1e-7.
  */
 #ifndef POVGLOSS_POSITION_CODE_H
 #define POVGLOSS_POSITION_CODE_H
@@ -13,7 +13,8 @@
 
 enum position_digits { POSITION_DIGITS_HIGH, POSITION_DIGITS_LOW };
 
-/* Scene text of a pigment that colours every point (for a sky_sphere with `direction`: every direction) by its digits. */
+/* Scene text of a pigment that colours every point (for a sky_sphere with `direction`: every direction) by its
+ * digits. */
 MUST_CHECK enum result position_code_pigment(struct buffer *text, bool direction, enum position_digits digits,
                                              struct error *err);
 
@@ -22,9 +23,9 @@ MUST_CHECK enum result position_code_pigment(struct buffer *text, bool direction
 MUST_CHECK enum result position_code_decode(const struct image *high, const struct image *low, struct image *decoded,
                                             struct error *err);
 
-/* Undoes the mixing of coded surfaces with black ones: where `share` (the plane of that channel, 0 to 1) says which part of a
- * pixel's texture was coded, both images of digits are divided by it. Of a share below 0.3 the high digits alone are kept,
- * about 1e-3 of the distance; one below 0.02 is left as it is. The three images are of one size. */
+/* Undoes the mixing of coded surfaces with black ones: where `share` (the plane of that channel, 0 to 1) says which
+ * part of a pixel's texture was coded, both images of digits are divided by it. Of a share below 0.3 the high digits
+ * alone are kept, about 1e-3 of the distance; one below 0.02 is left as it is. The three images are of one size. */
 void position_code_unmix(struct image *high, struct image *low, const struct image *share, int channel);
 
 #endif

@@ -31,10 +31,10 @@ struct povray_job {
 /* Is told from time to time how much of all the work is done, 0 to 1. */
 typedef void povray_progress(void *context, double done);
 
-/* Runs all jobs, `at_once` of them at a time, in their order as far as none waits, with the environment given. When one fails the others are
- * ended, *failed is its index (else -1), its messages are there for povray_error_text, and the result is RESULT_POVRAY
- * with its exit status; RESULT_POVRAY and -1 when one isn't there or runs into its timeout; RESULT_INTERRUPTED after a
- * signal. No process is left in any case. */
+/* Runs all jobs, `at_once` of them at a time, in their order as far as none waits, with the environment given. When one
+ * fails the others are ended, *failed is its index (else -1), its messages are there for povray_error_text, and the
+ * result is RESULT_POVRAY with its exit status; RESULT_POVRAY and -1 when one isn't there or runs into its timeout;
+ * RESULT_INTERRUPTED after a signal. No process is left in any case. */
 MUST_CHECK enum result povray_run(struct povray_job *jobs, int count, int at_once, char *const *environment,
                                   povray_progress *progress, void *context, int *failed, struct error *err);
 void povray_jobs_free(struct povray_job *jobs, int count);
@@ -45,8 +45,8 @@ enum result povray_missing(const char *program, struct error *err);
 /* Whether the banner among the messages names a version but 3.7, and which. */
 bool povray_is_other_version(const struct buffer *messages, char version[POVRAY_VERSION_SIZE]);
 
-/* The lines of POV-Ray's messages that say what is wrong, in *text (the caller frees it): the wrapped lines joined, banner,
- * options and progress left out. */
+/* The lines of POV-Ray's messages that say what is wrong, in *text (the caller frees it): the wrapped lines joined,
+ * banner, options and progress left out. */
 MUST_CHECK enum result povray_error_text(const struct buffer *messages, struct buffer *text, struct error *err);
 
 #endif

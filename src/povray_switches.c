@@ -1,5 +1,5 @@
-/* POV-Ray's command line is a row of +X and -X switches, whose letters' case doesn't matter, of Name=Value settings, and of
- * .ini files. */
+/* POV-Ray's command line is a row of +X and -X switches, whose letters' case doesn't matter, of Name=Value settings,
+ * and of .ini files. */
 #include "povray_switches.h"
 
 #include "ini_file.h"

@@ -34,7 +34,8 @@ bool povray_switch_is(const char *argument);
 MUST_CHECK enum result povray_switch_take(struct povray_switches *switches, const char *argument, struct error *err);
 
 /* Takes the switches of the scene's own comment, the first line like `// +W640 +H480 +A0.3` among its first 50, as
- * POV-Ray's render_scene.sh does; *line is a copy of it behind path and line number. RESULT_DATA where there is none. */
+ * POV-Ray's render_scene.sh does; *line is a copy of it behind path and line number. RESULT_DATA where there is
+ * none. */
 MUST_CHECK enum result povray_switches_take_comment(struct povray_switches *switches, const char *scene, char **line,
                                                     struct error *err);
 

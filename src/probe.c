@@ -90,8 +90,9 @@ static bool normalise(double v[3])
     return length > 0 && isfinite(length);
 }
 
-/* Unit vectors `across` and `up` at right angles to the unit vector `axis` and to each other. They change with it without
- * leaps, but about -y (Frisvad, Building an orthonormal basis from a 3D unit vector without normalization, 2012). */
+/* Unit vectors `across` and `up` at right angles to the unit vector `axis` and to each other. They change with it
+ * without leaps, but about -y (Frisvad, Building an orthonormal basis from a 3D unit vector without normalization,
+ * 2012). */
 static void make_frame(const double axis[3], double turn, double across[3], double up[3])
 {
     double share = 1 / fmax(1 + axis[1], 1e-12), both = -axis[0] * axis[2] * share;
@@ -228,8 +229,8 @@ static enum result add_face(struct buffer *text, const double ray[3], struct err
     return result ? result : buffer_add_text(text, "\n", err);
 }
 
-/* With few rays the pixels of a tile of 8 x 8 have lobes of their own, in Morton order: those of an aligned square of 2 x 2
- * or 4 x 4 pixels follow each other. */
+/* With few rays the pixels of a tile of 8 x 8 have lobes of their own, in Morton order: those of an aligned square of 2
+ * x 2 or 4 x 4 pixels follow each other. */
 static int lobe_of(const struct probes *probes, const struct probe *probe)
 {
     int lobe = 0;

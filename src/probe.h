@@ -9,9 +9,9 @@
  * Directions are drawn with density cos^p, so that all count the same: PROBE_SETS sets of points, each a
  * (0, 2)-sequence with a random scrambling of its own (Owen, 1995), turned about m at random for each probe. The sets'
  * means are independent: their spread gives the error. With a given number of rays at every pixel the 64 pixels of each
- * tile of 8 x 8 share one such sequence, each taking a part of it (interleaved sampling, Keller and Heidrich, 2001), and
- * the lobes are turned alike: the mean over some pixels errs less than that of rays at random. Probes are measured in
- * rounds, each with four times as many rays, until the error is small enough:
+ * tile of 8 x 8 share one such sequence, each taking a part of it (interleaved sampling, Keller and Heidrich, 2001),
+ * and the lobes are turned alike: the mean over some pixels errs less than that of rays at random. Probes are measured
+ * in rounds, each with four times as many rays, until the error is small enough:
  *
  *   while (probes_left(&probes)) { probes_view -> rendered by POV-Ray -> probes_take }
  */

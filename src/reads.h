@@ -28,8 +28,8 @@ MUST_CHECK enum result reads_begin(const struct work_folder *folder, struct erro
 /* The variable LD_PRELOAD=... for the environment of POV-Ray, with what it holds now. The caller frees it. */
 MUST_CHECK enum result reads_variable(char **variable, struct error *err);
 
-/* Takes the names out of the log, which is empty then. Left out are files below /usr, /etc, /proc and /sys, unless one of
- * the directories led to them. RESULT_DATA if there was nothing in the log. */
+/* Takes the names out of the log, which is empty then. Left out are files below /usr, /etc, /proc and /sys, unless one
+ * of the directories led to them. RESULT_DATA if there was nothing in the log. */
 MUST_CHECK enum result reads_collect(const struct work_folder *folder, const struct reads_places *places,
                                      struct reads *reads, struct error *err);
 

@@ -1,4 +1,5 @@
-/* A sandbox for POV-Ray, made by bubblewrap (bwrap) without root: what a scene reads and writes is limited to folders. */
+/* A sandbox for POV-Ray, made by bubblewrap (bwrap) without root: what a scene reads and writes is limited to
+ * folders. */
 #ifndef POVGLOSS_SANDBOX_H
 #define POVGLOSS_SANDBOX_H
 
@@ -13,12 +14,12 @@
 MUST_CHECK enum result sandbox_begin(const char *work_folder, const struct text_list *folders, const char *const *files,
                                      int file_count, struct text_list *arguments, struct error *err);
 
-/* After the last program: waits, 5 s at most, for what a killed bwrap leaves, which ends by itself a moment later and may
- * still write. */
+/* After the last program: waits, 5 s at most, for what a killed bwrap leaves, which ends by itself a moment later and
+ * may still write. */
 void sandbox_end(void);
 
-/* The real path of a program that is looked up in PATH unless it has a slash, in *path, which the caller frees; NULL: it
- * isn't there. */
+/* The real path of a program that is looked up in PATH unless it has a slash, in *path, which the caller frees; NULL:
+ * it isn't there. */
 MUST_CHECK enum result program_find(const char *name, char **path, struct error *err);
 
 #endif

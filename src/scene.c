@@ -1,5 +1,5 @@
-/* Each file is walked once as it is read; what depends on all files follows in scene_settle. Whether a finish is glossy is
- * left to POV-Ray, since macros and conditions decide it: here it counts what may be.
+/* Each file is walked once as it is read; what depends on all files follows in scene_settle. Whether a finish is glossy
+ * is left to POV-Ray, since macros and conditions decide it: here it counts what may be.
  */
 #include "scene.h"
 
@@ -224,8 +224,8 @@ static void note_limits(struct scene *scene, const struct scene_file *file, int 
     }
 }
 
-/* A camera made of a mesh has a face for each pixel; image_width and image_height but in a proportion are for something drawn
- * by pixels. */
+/* A camera made of a mesh has a face for each pixel; image_width and image_height but in a proportion are for something
+ * drawn by pixels. */
 static bool is_size(const struct scene_file *file, int token)
 {
     bool width = is_word(file, token, "image_width"), height = is_word(file, token, "image_height");
@@ -360,8 +360,8 @@ static void note_parameters(struct scene *scene, const struct scene_file *file, 
         note_fact(scene, file, token, NAME_PARAMETER);
 }
 
-/* Notes whether the name that the directive at `token` declares may be transparent: what a parameter of a macro gives to it
- * is as unknown as the parameter. */
+/* Notes whether the name that the directive at `token` declares may be transparent: what a parameter of a macro gives
+ * to it is as unknown as the parameter. */
 static void note_clear_name(struct scene *scene, const struct scene_file *file, int token)
 {
     bool macro = is_directive(file, token, "macro"), clear = false, unknown = false;
@@ -381,8 +381,8 @@ static void note_clear_name(struct scene *scene, const struct scene_file *file, 
         note_fact(scene, file, name, NAME_PARAMETER);
 }
 
-/* Finds the names through which a pigment may be transparent: those declared with a transparent colour or an image, or with
- * such a name. */
+/* Finds the names through which a pigment may be transparent: those declared with a transparent colour or an image, or
+ * with such a name. */
 static void note_clear_names(struct scene *scene, const struct scene_file *file)
 {
     for (int token = 0; token < file->list.count - 1; token++)

@@ -14,9 +14,9 @@
     "#write (povgloss_log, " values ", \"\\n\") #fclose povgloss_log "
 
 /* Takes the log of a discovery copy that POV-Ray has parsed in `folder`: reads the files that were included by names
- * which scene_load couldn't follow, and finds working_gamma. *again is true where the new files need another run; when it
- * is false, scene_settle comes next. RESULT_DATA, with file and line, for a file that the scene writes itself more than
- * once, with other objects or textures in it. */
+ * which scene_load couldn't follow, and finds working_gamma. *again is true where the new files need another run; when
+ * it is false, scene_settle comes next. RESULT_DATA, with file and line, for a file that the scene writes itself more
+ * than once, with other objects or textures in it. */
 MUST_CHECK enum result scene_discover(struct scene *scene, const char *folder, const char *const *directories,
                                       int directory_count, bool *again, struct error *err);
 

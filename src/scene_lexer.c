@@ -192,8 +192,8 @@ static enum result end_branch(struct branches *branches, const struct buffer *op
     return stack_copy(&branches->after, open, err);
 }
 
-/* Of a conditional's branches one is parsed: each begins with the brackets that were open before it, and what follows it with
- * those of a branch that opened or closed some. */
+/* Of a conditional's branches one is parsed: each begins with the brackets that were open before it, and what follows
+ * it with those of a branch that opened or closed some. */
 static enum result follow_branches(const struct buffer *source, const struct token *token, bool switch_default,
                                    struct branches *conditionals, int *depth, struct buffer *open, int *twin,
                                    struct error *err)

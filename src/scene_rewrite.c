@@ -1,7 +1,7 @@
 /* A table of rules for each kind of copy, and one walk over the tokens that copies the source and replaces blocks.
  *
- * The places of finishes, textures and lights are found by tokens; whether a finish is glossy is left to POV-Ray, through
- * the marks, since macros and conditions decide it.
+ * The places of finishes, textures and lights are found by tokens; whether a finish is glossy is left to POV-Ray,
+ * through the marks, since macros and conditions decide it.
  */
 #include "scene_rewrite.h"
 
@@ -174,7 +174,8 @@ static enum result write_photons(struct writer *writer, int first, int end, stru
     return result;
 }
 
-/* Whether leaving the tokens out would change what follows: they declare something, draw random numbers or call a macro. */
+/* Whether leaving the tokens out would change what follows: they declare something, draw random numbers or call a
+ * macro. */
 static bool has_effects(const struct writer *writer, int first, int last)
 {
     for (int i = first; i <= last; i++)
@@ -184,8 +185,8 @@ static bool has_effects(const struct writer *writer, int first, int last)
     return false;
 }
 
-/* Puts `text` in place of the block `keyword { ... }` from `token` to `last`. One with effects is declared in front of it
- * (an interior_texture as a texture), so that every copy of the scene draws the same random numbers. */
+/* Puts `text` in place of the block `keyword { ... }` from `token` to `last`. One with effects is declared in front of
+ * it (an interior_texture as a texture), so that every copy of the scene draws the same random numbers. */
 static enum result replace_block(struct writer *writer, int token, int last, const char *text, struct error *err)
 {
     if (!has_effects(writer, token + 1, last))
@@ -258,8 +259,8 @@ static enum result write_statement(struct writer *writer, int token, int last, s
     return result ? result : copy_to(writer, writer->file->list.tokens[last].end, err);
 }
 
-/* Appends the subscripts after the name at `name`. Those that may differ when they are computed again, as by rand(), are the
- * variables VARIABLE_0, VARIABLE_1 ... that hoist_subscripts declares. */
+/* Appends the subscripts after the name at `name`. Those that may differ when they are computed again, as by rand(),
+ * are the variables VARIABLE_0, VARIABLE_1 ... that hoist_subscripts declares. */
 static enum result add_subscripts(const struct writer *writer, int name, const char *variable, struct buffer *text,
                                   struct error *err)
 {
@@ -299,8 +300,8 @@ static enum result hoist_subscripts(struct writer *writer, int before, int name,
 }
 
 /* A finish or texture that begins with a declared name takes over that one's state (pass_scene.c), which is kept in a
- * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows), by the macro; for an
- * element of an array it is in an array of the same size. */
+ * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows), by the macro;
+ * for an element of an array it is in an array of the same size. */
 static enum result inherit_state(struct writer *writer, int token, const char *macro, struct error *err)
 {
     static const char index[] = "povgloss_index";
@@ -393,7 +394,8 @@ static int sibling_before(const struct scene_file *file, int token, const char *
     return -1;
 }
 
-/* What a finish gets its transparency from: the last pigment, texture or material before it in the same braces, or -1. */
+/* What a finish gets its transparency from: the last pigment, texture or material before it in the same braces, or
+ * -1. */
 static int surface_before(const struct writer *writer, int token)
 {
     static const char *const words[] = {"pigment", "texture", "material"};
@@ -595,8 +597,8 @@ static enum result remember(struct writer *writer, int name_token, int last, str
     return result;
 }
 
-/* `#declare A = array[9] { T, texture { U } }`: A gets an array of states, with those of the elements that are or begin with
- * a name. */
+/* `#declare A = array[9] { T, texture { U } }`: A gets an array of states, with those of the elements that are or begin
+ * with a name. */
 static enum result declare_states(struct writer *writer, int directive, int *next, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -646,8 +648,8 @@ static enum result copy_state(struct writer *writer, int directive, struct error
                                   is_directive(file, directive, "local") ? "#local" : "#declare", to, from);
 }
 
-/* `#macro M(F, X)`: a macro with such a parameter among the surfaces takes the state of each besides, as `#macro M(F, X,
- * povgloss_of_N, povgloss_unused_1)`. */
+/* `#macro M(F, X)`: a macro with such a parameter among the surfaces takes the state of each besides, as `#macro M(F,
+ * X, povgloss_of_N, povgloss_unused_1)`. */
 static enum result take_states(struct writer *writer, int directive, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -778,8 +780,8 @@ static const char *const statement_words[] = {"camera",     "global_settings", "
 static const char *const texture_words[] = {"texture",  "pigment", "finish", "normal", "material", "interior_texture",
                                             NULL};
 
-/* A light that the copy must not have twice goes, or if it may be part of something else (it is declared, or fills an array,
- * or brings an object along by looks_like) it fades to nothing within any distance. */
+/* A light that the copy must not have twice goes, or if it may be part of something else (it is declared, or fills an
+ * array, or brings an object along by looks_like) it fades to nothing within any distance. */
 static enum result write_light(struct writer *writer, int token, int last, bool value, struct error *err)
 {
     static const char *const looks_like[] = {"looks_like", NULL};
@@ -850,8 +852,9 @@ static enum result write_split(struct writer *writer, int token, int last, struc
     return result ? result : insert_after(writer, last, top ? " povgloss_enter_copy() " : "", err);
 }
 
-/* An object with its textures counted: one of the top level, which may be transparent, is declared and then placed, as is one
- * of a union that is split; a declared one, which may be glossy, keeps its counts beside its name (`name`, else -1). */
+/* An object with its textures counted: one of the top level, which may be transparent, is declared and then placed, as
+ * is one of a union that is split; a declared one, which may be glossy, keeps its counts beside its name (`name`, else
+ * -1). */
 static enum result write_object(struct writer *writer, int token, int last, int name, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -901,9 +904,9 @@ static bool keeps_state(const struct writer *writer, int name)
     return has_fact(writer->file, name, element ? NAME_SURFACE_ARRAY : NAME_DECLARED);
 }
 
-/* A pigment that isn't declared by a name, in a copy where nothing opaque has colours. Where exponents may be painted, one
- * that may become a map stays, as the argument or, by povgloss_value, as the value of a macro, and over a map others don't
- * count. */
+/* A pigment that isn't declared by a name, in a copy where nothing opaque has colours. Where exponents may be painted,
+ * one that may become a map stays, as the argument or, by povgloss_value, as the value of a macro, and over a map
+ * others don't count. */
 static enum result write_pigment(struct writer *writer, int token, int last, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -966,8 +969,8 @@ static enum result write_marked(struct writer *writer, int token, int last, int 
     return result ? result : copy_to(writer, file->list.tokens[last].end, err);
 }
 
-/* `#declare X = texture {...} texture {...}`: POV-Ray takes no directive and no macro in any layer but the first, so each layer
- * is declared by itself. */
+/* `#declare X = texture {...} texture {...}`: POV-Ray takes no directive and no macro in any layer but the first, so
+ * each layer is declared by itself. */
 static enum result write_declared_layers(struct writer *writer, int token, int *next, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -1011,7 +1014,8 @@ static bool layers_may_be_clear(const struct writer *writer, int token)
     return clear;
 }
 
-/* In a copy without textures those that are declared stay. Of those that may be clear it is remembered whether they are. */
+/* In a copy without textures those that are declared stay. Of those that may be clear it is remembered whether they
+ * are. */
 static enum result write_coded_value(struct writer *writer, int token, int last, int name, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -1098,8 +1102,8 @@ static enum result write_coded(struct writer *writer, int token, int last, int *
 }
 
 /* Leaves out the values, textures and commas of a mesh from `first` up to the next vector, which is *next, or to `end`.
- * Values with effects are declared; `after` ends that: POV-Ray wants a semicolon after a number and takes none after what
- * a macro leaves of a texture. */
+ * Values with effects are declared; `after` ends that: POV-Ray wants a semicolon after a number and takes none after
+ * what a macro leaves of a texture. */
 static enum result drop_items(struct writer *writer, int first, int end, const char *after, int *next,
                               struct error *err)
 {
@@ -1331,8 +1335,8 @@ static enum result write_include(struct writer *writer, int token, struct error 
     return RESULT_OK;
 }
 
-/* Objects without a texture take the default when they are finished, at the end of the union: it ends before the default
- * changes. In a copy without textures it would be seen in the codes, and is taken back. */
+/* Objects without a texture take the default when they are finished, at the end of the union: it ends before the
+ * default changes. In a copy without textures it would be seen in the codes, and is taken back. */
 static enum result write_default(struct writer *writer, int token, int *next, struct error *err)
 {
     const struct scene_file *file = writer->file;

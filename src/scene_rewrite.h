@@ -3,8 +3,9 @@
  * A copy is the user's text with some blocks replaced, line by line where it was, so that a message of POV-Ray about a
  * copy names the line of the user's own file. What replaces them refers to names that the pass's wrapper declares
  * (pass_scene.c): the macros povgloss_begin and povgloss_end around the items of every finish, povgloss_pigment,
- * povgloss_modifiers (those of the union around), povgloss_nothing (an object, for unions that would be empty) and, where
- * a camera has an aperture, povgloss_camera at its end, and povgloss_photons at the end of the photons of global_settings.
+ * povgloss_modifiers (those of the union around), povgloss_nothing (an object, for unions that would be empty) and,
+ * where a camera has an aperture, povgloss_camera at its end, and povgloss_photons at the end of the photons of
+ * global_settings.
  */
 #ifndef POVGLOSS_SCENE_REWRITE_H
 #define POVGLOSS_SCENE_REWRITE_H
@@ -25,7 +26,8 @@ enum scene_copy {
     SCENE_COPY_COUNT,
 };
 
-/* Writes one copy of all files into the folder. RESULT_DATA, with file and line, for a construct that can't be taken. */
+/* Writes one copy of all files into the folder. RESULT_DATA, with file and line, for a construct that can't be
+ * taken. */
 MUST_CHECK enum result scene_write_copy(const struct scene *scene, enum scene_copy copy, const char *folder,
                                         struct error *err);
 

@@ -1,4 +1,5 @@
-/* By names alone: a name that is a surface somewhere is one everywhere. Each round follows the names one step further. */
+/* By names alone: a name that is a surface somewhere is one everywhere. Each round follows the names one step
+ * further. */
 #include "scene_surfaces.h"
 
 #include "scene_tokens.h"

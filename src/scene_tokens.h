@@ -261,7 +261,8 @@ static inline int end_of_macro(const struct scene_file *file, int token)
     return token;
 }
 
-/* The token after the directive at `token` and what it takes, but for what stands between it and its #end; at most `end`. */
+/* The token after the directive at `token` and what it takes, but for what stands between it and its #end; at most
+ * `end`. */
 static inline int directive_end(const struct scene_file *file, int token, int end)
 {
     static const char *const alone[] = {"else", "end", "break", NULL};

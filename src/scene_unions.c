@@ -1,4 +1,5 @@
-/* By tokens and names: POV-Ray takes flags of an object in a union only where every union around is one without bounds. */
+/* By tokens and names: POV-Ray takes flags of an object in a union only where every union around is one without
+ * bounds. */
 #include "scene_unions.h"
 
 #include "scene_tokens.h"
@@ -8,7 +9,8 @@ static const char *const surface_words[] = {"texture", "pigment", "finish", "nor
 /* Those that concern a union as a whole. */
 static const char *const whole_words[] = {"bounded_by", "inverse", "split_union", NULL};
 
-/* Whether the tokens, blocks left out, are neither a call of a macro nor one of those words, and the blocks no surfaces. */
+/* Whether the tokens, blocks left out, are neither a call of a macro nor one of those words, and the blocks no
+ * surfaces. */
 static bool is_plain(const struct scene_file *file, int first, int last)
 {
     static const char *const unknown[] = {"include", "macro", "default", NULL};

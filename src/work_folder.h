@@ -1,4 +1,5 @@
-/* The folder in which the passes are rendered: a temporary one that goes with everything in it, or one the user keeps. */
+/* The folder in which the passes are rendered: a temporary one that goes with everything in it, or one the user
+ * keeps. */
 #ifndef POVGLOSS_WORK_FOLDER_H
 #define POVGLOSS_WORK_FOLDER_H
 
@@ -14,8 +15,8 @@ struct work_folder {
 /* Makes the folder: `keep` (it may exist if it is empty), or with NULL a new one in $TMPDIR or /tmp. */
 MUST_CHECK enum result work_folder_make(struct work_folder *folder, const char *keep, struct error *err);
 
-/* Removes the folder unless it is kept; frees the path. Nothing happens without a folder. RESULT_DATA where something of
- * it is left. */
+/* Removes the folder unless it is kept; frees the path. Nothing happens without a folder. RESULT_DATA where something
+ * of it is left. */
 MUST_CHECK enum result work_folder_remove(struct work_folder *folder, struct error *err);
 
 /* Whether less than 1 MB is left on its disk. */
