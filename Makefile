@@ -231,7 +231,7 @@ run-fuzzers: $(FUZZERS)
 	done
 
 .PHONY: bench
-bench: $(PROGRAMS) $(PRELOAD) $(BUILD)/tests/tools/bench_filter ## times and errors of the fast filter against the exact one
+bench: $(PROGRAMS) $(PRELOAD) $(BUILD)/tests/tools/bench_filter ## times of the filter, and errors of its variants
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools OUT=$(BUILD)/bench scripts/bench.sh
 
 .PHONY: corpus

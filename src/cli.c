@@ -242,22 +242,6 @@ static enum result set_bits(const char *name, const char *value, struct cli_filt
     return result;
 }
 
-static enum result set_quality(const char *name, const char *value, struct cli_filter *options, struct error *err)
-{
-    static const char *const words[] = {"exact", "fine", "fast", NULL};
-    static const double tolerances[] = {0, FILTER_TOLERANCE_FINE, FILTER_TOLERANCE_FAST};
-    int chosen;
-    enum result result = choose(name, value, words, &chosen, err);
-    if (result == RESULT_OK)
-        options->filter.tolerance = tolerances[chosen];
-    return result;
-}
-
-static enum result set_tolerance(const char *name, const char *value, struct cli_filter *options, struct error *err)
-{
-    return cli_number(name, value, 0, 1, &options->filter.tolerance, err);
-}
-
 typedef enum result set_function(const char *name, const char *value, struct cli_filter *options, struct error *err);
 
 static const struct {
@@ -269,7 +253,6 @@ static const struct {
     {"--max-radius", set_max_radius}, {"--radius-step", set_radius_step}, {"--energy", set_energy},
     {"--max-angle", set_max_angle},   {"--threads", set_threads},         {"--isa", set_isa},
     {"--format", set_format},         {"--bits", set_bits},           {"--without", set_without},
-    {"--quality", set_quality},       {"--tolerance", set_tolerance},
 };
 
 const char cli_filter_help[] =
@@ -292,10 +275,6 @@ const char cli_filter_help[] =
     "  --window W           round (default) or square\n"
     "  --radius-step N      radius computed at every 1 (default), 2, 4 or 8 pixels\n"
     "Speed:\n"
-    "  --quality Q          exact (default): every pixel is summed by itself; fine, fast: some are, from\n"
-    "                       some of their neighbours, with --tolerance 0.002 and 0.006\n"
-    "  --tolerance E        how far the fast filter may be off at the pixels where it looks, 0 (exact) to 1;\n"
-    "                       of values above 1 relative\n"
     "  --threads N          0: one for each processor (default)\n"
     "  --isa I              auto (default), sse2, avx2 or avx512; the picture is the same\n"
     "Output:\n"

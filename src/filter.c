@@ -1,18 +1,61 @@
-/* Both filters: the stages, each shared out by rows; antialiased edges. */
+/* Both filters: the stages around the sums of filter_kernel.c.
+ *
+ * The passes as planes of taps, and for the best filter the area of each; the radius of every pixel (equations (4) and
+ * (5), or the gradient of the direction field); the sums; antialiased edges. Each stage is shared out by rows.
+ */
 #include "filter.h"
 
 #include "bands.h"
 #include "control_variate.h"
-#include "filter_cells.h"
-#include "filter_level.h"
-#include "filter_sparse.h"
+#include "filter_kernel.h"
 #include "interrupt.h"
+#include "lobe.h"
 #include "weights.h"
 
 #include <assert.h>
+#include <float.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
+
+/* From this exponent on the lobe is narrower than any pixel. */
+static const double mirror_phong = 1e20;
+
+enum { EDGE_REACH_PX = 3 };
+
+static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+
+static const double pi = 3.14159265358979324;
+
+/* In units of the taps, whose farthest position is at 2^20: 1e-15 of that. */
+static const double least_distance = 1e-9;
+
+/* How many times larger tan^2(theta) is of what hides an endpoint: 10 % of the angle are left to the digits of the
+ * positions and to bumps. */
+static const float hidden_ratio = 1.21f;
+
+/* See help_needed(); so little that it isn't worth its time is taken off. */
+static const double pool_pixels = 16, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.02;
+
+struct filter {
+    const struct gbuffer *gbuffer;
+    const struct filter_options *options;
+    filter_kernel *kernel;
+    filter_see *see;
+    struct filter_taps taps;
+    float *planes;
+    unsigned char *kinds;
+    struct filter_box *boxes;
+    float *table;
+    double length_scale, radiance_scale; /* powers of two that keep squares and sums within the range of a float */
+    double energy;
+    double floor; /* of the best filter's weights */
+    double radius_limit_px;
+    struct image radius, confidence;
+    struct image *glossy;
+    atomic_bool out_of_memory;
+};
 
 struct filter_options filter_options_default(void)
 {
@@ -26,56 +69,553 @@ struct filter_options filter_options_default(void)
     };
 }
 
-struct filter {
-    struct filter_level *level;
-    struct filter_view view;
-    atomic_bool out_of_memory;
+/* The exponent of a glossy pixel. */
+static double exponent_at(const struct filter *filter, int x, int y)
+{
+    const struct image *phong = &filter->gbuffer->phong;
+    bool own = phong->pixels && !filter->options->phong_override;
+    return (double)(own ? image_row(phong, 0, y)[x] : filter->options->phong);
+}
+
+/* The pixel as a tap: a, b with W = 1 or a unit direction with W = 0, and L0. False: not glossy. */
+struct sample {
+    double a[3], b[4], radiance[3];
 };
 
-static void blur(void *context, int first, int end)
+static bool sample_read(const struct filter *filter, int x, int y, struct sample *sample)
+{
+    const struct gbuffer *gbuffer = filter->gbuffer;
+    if (!gbuffer_is_glossy(gbuffer, x, y))
+        return false;
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        sum += sample->a[i] = (double)image_row(&gbuffer->position, i, y)[x];
+        sum += sample->b[i] = (double)image_row(&gbuffer->endpoint, i, y)[x];
+        sum += sample->radiance[i] = (double)image_row(&gbuffer->specular, i, y)[x];
+    }
+    double w = (double)image_row(&gbuffer->endpoint, 3, y)[x];
+    if (!isfinite(sum + w) || w < 0)
+        return false;
+    double length = sqrt(sample->b[0] * sample->b[0] + sample->b[1] * sample->b[1] + sample->b[2] * sample->b[2]);
+    for (int i = 0; i < 3; i++)
+        sample->b[i] /= w > 0 ? w : length;
+    sample->b[3] = w > 0;
+    return true;
+}
+
+long filter_left_out(const struct gbuffer *gbuffer)
+{
+    const struct filter_options options = {0};
+    const struct filter filter = {.gbuffer = gbuffer, .options = &options};
+    long count = 0;
+    for (int y = 0; y < gbuffer->specular.height; y++)
+        for (int x = 0; x < gbuffer->specular.width; x++) {
+            struct sample sample;
+            bool meant = false;
+            for (int i = 0; i < 4; i++)
+                meant = meant || image_row(&gbuffer->endpoint, i, y)[x] != 0; /* also NaN */
+            if (gbuffer->phong.pixels)
+                meant = meant && image_row(&gbuffer->phong, 0, y)[x] != 0;
+            count += meant && !sample_read(&filter, x, y, &sample);
+        }
+    return count;
+}
+
+static void scales_find(struct filter *filter)
+{
+    double coordinate = 0, radiance = 0;
+    for (int y = 0; y < filter->taps.height; y++)
+        for (int x = 0; x < filter->taps.width; x++) {
+            struct sample sample;
+            if (!sample_read(filter, x, y, &sample))
+                continue;
+            for (int i = 0; i < 3; i++) {
+                coordinate = fmax(coordinate, fabs(sample.a[i]));
+                radiance = fmax(radiance, fabs(sample.radiance[i]));
+            }
+        }
+    filter->length_scale = coordinate > 0 ? ldexp(1, 20 - ilogb(coordinate)) : 1;
+    const bool extreme = radiance > 0x1p100 || (radiance > 0 && radiance < 0x1p-20);
+    filter->radiance_scale = extreme ? ldexp(1, -ilogb(radiance)) : 1;
+}
+
+static const struct filter_box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static void box_add(struct filter_box *box, const float point[3])
+{
+    for (int i = 0; i < 3; i++) {
+        box->low[i] = fminf(box->low[i], point[i]);
+        box->high[i] = fmaxf(box->high[i], point[i]);
+    }
+}
+
+static void taps_fill(void *context, int first, int end)
 {
     struct filter *filter = context;
-    float *scratch = aligned_alloc(64, filter_level_scratch(&filter->view) * sizeof *scratch);
+    const struct filter_taps *taps = &filter->taps;
+    size_t plane = taps->stride * (size_t)taps->height;
+    const bool max = filter->options->formula == FILTER_FORMULA_MAX;
+    const float gain = (float)(max ? lobe_weight_max(1, 1, 1) : lobe_weight(1, 1));
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < taps->width; x++) {
+            struct sample sample;
+            if (!sample_read(filter, x, y, &sample))
+                continue;
+            double b[4], largest = 0;
+            memcpy(b, sample.b, sizeof b);
+            for (int i = 0; i < 3 && b[3] > 0; i++) {
+                b[i] *= filter->length_scale;
+                largest = fmax(largest, fabs(b[i]));
+            }
+            /* So far away is a direction, the same from everywhere; its square would leave the range of a float. */
+            if (largest > 0x1p60) {
+                double length = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+                for (int i = 0; i < 3; i++)
+                    b[i] /= length;
+                b[3] = 0;
+            }
+            size_t column = (size_t)x + FILTER_BORDER;
+            float *tap = filter->planes + (size_t)y * taps->stride + column;
+            for (int i = 0; i < 4; i++)
+                tap[(size_t)(FILTER_PLANE_X + i) * plane] = (float)b[i];
+            tap[FILTER_PLANE_GAIN * plane] = gain;
+            for (int i = 0; i < 3; i++)
+                tap[(size_t)(FILTER_PLANE_R + i) * plane] = (float)(sample.radiance[i] * filter->radiance_scale);
+            size_t block = (size_t)y * (taps->stride / FILTER_LANES) + column / FILTER_LANES;
+            if (b[3] > 0)
+                box_add(&filter->boxes[block], (const float[3]){(float)b[0], (float)b[1], (float)b[2]});
+            filter->kinds[block] |= b[3] > 0 ? FILTER_KIND_POSITION : FILTER_KIND_DIRECTION;
+        }
+}
+
+static const float *tap_at(const struct filter *filter, enum filter_plane plane, int x, int y)
+{
+    return filter->taps.planes[plane] + (size_t)y * filter->taps.stride + (size_t)x + FILTER_BORDER;
+}
+
+static bool is_glossy(const struct filter *filter, int x, int y)
+{
+    return *tap_at(filter, FILTER_PLANE_GAIN, x, y) > 0;
+}
+
+/* a in the units of the taps. */
+static void position_at(const struct filter *filter, int x, int y, float a[3])
+{
+    for (int i = 0; i < 3; i++)
+        a[i] = (float)((double)image_row(&filter->gbuffer->position, i, y)[x] * filter->length_scale);
+}
+
+/* Unit direction from a to the tap's b, and its distance (1 for W = 0); a distance of 0 leaves the direction 0. */
+static double direction_to(const struct filter *filter, const float a[3], int x, int y, double direction[3])
+{
+    double w = (double)*tap_at(filter, FILTER_PLANE_W, x, y), square = 0;
+    for (int i = 0; i < 3; i++) {
+        direction[i] = (double)*tap_at(filter, FILTER_PLANE_X + (unsigned)i, x, y) - w * (double)a[i];
+        square += direction[i] * direction[i];
+    }
+    double distance = sqrt(square);
+    for (int i = 0; i < 3 && distance > 0; i++)
+        direction[i] /= distance;
+    return distance;
+}
+
+static bool is_inside(const struct filter *filter, int x, int y)
+{
+    return x >= 0 && y >= 0 && x < filter->taps.width && y < filter->taps.height;
+}
+
+/* Change of the direction from (x, y)'s a to the endpoints from that of (x, y) to that of a neighbour, before and after
+ * it on one axis: the smaller of the two, for the larger may leap to another thing. Its length; infinite where neither
+ * neighbour is glossy. */
+static double direction_step(const struct filter *filter, const float a[3], int x, int y, int right, int down,
+                             double step[3])
+{
+    double own[3], least = INFINITY;
+    direction_to(filter, a, x, y, own);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        int u = x + sign * right, v = y + sign * down;
+        double other[3], square = 0;
+        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v) || direction_to(filter, a, u, v, other) == 0)
+            continue;
+        for (int i = 0; i < 3; i++) {
+            other[i] = sign * (other[i] - own[i]);
+            square += other[i] * other[i];
+        }
+        if (square >= least)
+            continue;
+        least = square;
+        memcpy(step, other, sizeof other);
+    }
+    return sqrt(least);
+}
+
+/* Area across the ray that a glossy pixel stands for at its endpoint; for a direction its solid angle. Without
+ * neighbours on one axis it is a square, without any it is next to nothing. */
+static double area_at(const struct filter *filter, int x, int y)
+{
+    const double least = 1e-12;
+    float a[3];
+    double own[3], across[3] = {0}, down[3] = {0}, solid;
+    position_at(filter, x, y, a);
+    double distance = direction_to(filter, a, x, y, own);
+    double width = direction_step(filter, a, x, y, 1, 0, across), height = direction_step(filter, a, x, y, 0, 1, down);
+    if (filter->options->without & FILTER_WITHOUT_DENSITY) {
+        solid = 1e-6;
+    } else if (isinf(width) || isinf(height)) {
+        double side = fmin(width, height);
+        solid = isinf(side) ? 0 : side * side;
+    } else {
+        double normal[3] = {across[1] * down[2] - across[2] * down[1], across[2] * down[0] - across[0] * down[2],
+                            across[0] * down[1] - across[1] * down[0]};
+        solid = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    }
+    return fmax(solid, least) * distance * distance;
+}
+
+static void areas_fill(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    const struct filter_taps *taps = &filter->taps;
+    float *areas = filter->planes + FILTER_PLANE_AREA * taps->stride * (size_t)taps->height;
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < taps->width; x++)
+            if (is_glossy(filter, x, y))
+                areas[(size_t)y * taps->stride + (size_t)x + FILTER_BORDER] = (float)fmax(area_at(filter, x, y), 1e-30);
+}
+
+/* Pixels in which the direction to the endpoint turns by the half-angle, where the camera is not known. */
+static double radius_from_gradient(const struct filter *filter, int x, int y, double half_angle)
+{
+    float a[3];
+    double own[3], step = INFINITY;
+    position_at(filter, x, y, a);
+    if (direction_to(filter, a, x, y, own) == 0)
+        return 0;
+    for (int n = 0; n < 4; n++) {
+        int u = x + neighbours[n][0], v = y + neighbours[n][1];
+        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
+            continue;
+        double other[3], square = 0;
+        if (direction_to(filter, a, u, v, other) == 0)
+            continue;
+        for (int i = 0; i < 3; i++)
+            square += (other[i] - own[i]) * (other[i] - own[i]);
+        step = fmin(step, 2 * asin(fmin(sqrt(square) / 2, 1)));
+    }
+    return isinf(step) ? 0 : half_angle / step;
+}
+
+/* Equations (4) and (5) with the picture's and the user's limit, for a glossy pixel. */
+static double radius_at(const struct filter *filter, int x, int y)
+{
+    const struct gbuffer *gbuffer = filter->gbuffer;
+    double phong = exponent_at(filter, x, y), radius;
+    if (phong >= mirror_phong)
+        return 0;
+    double half_angle = lobe_half_angle(phong, filter->energy, filter->options->max_angle_rad);
+    if (gbuffer->has_eye && gbuffer->view_angle > 0) {
+        struct sample sample;
+        double s = 0, r = 0;
+        sample_read(filter, x, y, &sample);
+        for (int i = 0; i < 3; i++) {
+            double to_eye = sample.a[i] - (double)gbuffer->eye[i], to_end = sample.b[i] - sample.a[i];
+            s += to_eye * to_eye;
+            r += to_end * to_end;
+        }
+        double alpha = lobe_alpha(half_angle, sqrt(s), sample.b[3] > 0 ? sqrt(r) : INFINITY);
+        radius = lobe_radius_px(alpha, filter->taps.width, (double)gbuffer->view_angle);
+    } else {
+        radius = radius_from_gradient(filter, x, y, half_angle);
+    }
+    return fmin(radius, filter->radius_limit_px);
+}
+
+/* Between the pixels of the coarse grid that are glossy with the same exponent; NaN where none is. */
+static double radius_interpolate(const struct filter *filter, int x, int y)
+{
+    int step = filter->options->radius_step, left = x / step * step, top = y / step * step;
+    double sum = 0, weights = 0, phong = exponent_at(filter, x, y);
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; i < 2; i++) {
+            int u = left + i * step, v = top + j * step;
+            double weight = (1 - abs(x - u) / (double)step) * (1 - abs(y - v) / (double)step);
+            if (weight == 0 || u >= filter->taps.width || v >= filter->taps.height || !is_glossy(filter, u, v))
+                continue;
+            if (exponent_at(filter, u, v) != phong)
+                continue;
+            sum += weight * (double)image_row(&filter->radius, 0, v)[u];
+            weights += weight;
+        }
+    return sum / weights;
+}
+
+static void radius_coarse(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    int step = filter->options->radius_step;
+    for (int row = first; row < end; row++)
+        for (int x = 0; x < filter->taps.width; x += step)
+            if (is_glossy(filter, x, row * step))
+                image_row(&filter->radius, 0, row * step)[x] = (float)radius_at(filter, x, row * step);
+}
+
+static void radius_fine(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    int step = filter->options->radius_step;
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < filter->taps.width; x++) {
+            if ((x % step == 0 && y % step == 0) || !is_glossy(filter, x, y))
+                continue;
+            double radius = radius_interpolate(filter, x, y);
+            image_row(&filter->radius, 0, y)[x] = (float)(isnan(radius) ? radius_at(filter, x, y) : radius);
+        }
+}
+
+static enum filter_shape shape_of(enum filter_weights weights)
+{
+    switch (weights) {
+    case FILTER_WEIGHTS_TABLE:
+        return FILTER_SHAPE_TABLE;
+    case FILTER_WEIGHTS_GAUSS:
+        return FILTER_SHAPE_GAUSS;
+    case FILTER_WEIGHTS_EXACT:
+        break;
+    }
+    return FILTER_SHAPE_POWER;
+}
+
+/* cos^p = (1 + t)^(-p/2), t = tan^2(theta), as the kernel wants it. */
+static double slope_of(enum filter_shape shape, double phong)
+{
+    switch (shape) {
+    case FILTER_SHAPE_TABLE:
+        return phong / 2 * log(2) * WEIGHTS_TABLE_STEPS;
+    case FILTER_SHAPE_GAUSS:
+        return phong / 2 / log(2);
+    case FILTER_SHAPE_SOLID:
+    case FILTER_SHAPE_POWER:
+        break;
+    }
+    return phong / 2;
+}
+
+/* Fills lane l with pixel (x, y). False: nothing to sum, the result is L0. */
+static bool lane_fill(const struct filter *filter, int x, int y, int l, struct filter_lanes *lanes)
+{
+    float a[3];
+    double direction[3], phong = exponent_at(filter, x, y);
+    position_at(filter, x, y, a);
+    double distance = direction_to(filter, a, x, y, direction);
+    bool one_tap = filter->options->mode == FILTER_MODE_PAPER && image_row(&filter->radius, 0, y)[x] < 1;
+    if (phong >= mirror_phong || distance < least_distance || one_tap)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        lanes->a[i][l] = a[i];
+        lanes->direction[i][l] = (float)direction[i];
+    }
+    for (int i = 0; i < 4; i++)
+        lanes->b[i][l] = *tap_at(filter, FILTER_PLANE_X + (unsigned)i, x, y);
+    lanes->distance[l] = (float)distance;
+    lanes->kinds |= lanes->b[3][l] > 0 ? FILTER_KIND_POSITION : FILTER_KIND_DIRECTION;
+    if (lanes->b[3][l] > 0)
+        lanes->farthest = fmaxf(lanes->farthest, lanes->distance[l]);
+    box_add(&lanes->box, a);
+    lanes->slope[l] = (float)slope_of(filter->taps.shape, phong);
+    lanes->narrow = lanes->narrow && lanes->slope[l] >= FILTER_NARROW_SLOPE;
+    return true;
+}
+
+/* The lanes' pixels from column x of row y on; used[l]: there is something to sum for lane l. */
+static bool lanes_fill(const struct filter *filter, int x, int y, struct filter_lanes *lanes, bool used[FILTER_LANES])
+{
+    bool any = false;
+    *lanes = (struct filter_lanes){.x = x, .y = y, .narrow = true, .box = empty_box};
+    for (int l = 0; l < FILTER_LANES; l++) {
+        lanes->limit[l] = lanes->blind[l] = -1;
+        used[l] = x + l < filter->taps.width && is_glossy(filter, x + l, y) && lane_fill(filter, x + l, y, l, lanes);
+        any = any || used[l];
+    }
+    return any;
+}
+
+/* Writes one pixel's sums; without weights L0 itself. */
+static void pixel_write(const struct filter *filter, int x, int y, const double colour[3], double weights)
+{
+    for (int i = 0; i < 3; i++) {
+        double value = (double)image_row(&filter->gbuffer->specular, i, y)[x];
+        if (weights > 0)
+            value = colour[i] / weights / filter->radiance_scale;
+        image_row(filter->glossy, i, y)[x] = (float)fmax(-FLT_MAX, fmin(value, FLT_MAX));
+    }
+}
+
+/* Whether the picture needs one of the lanes' pixels from column x of row y on: a margin is only looked at. */
+static bool is_needed(const struct filter *filter, int x, int y)
+{
+    const struct image_window *window = &filter->gbuffer->window;
+    return window->width == 0 || (y >= window->top - EDGE_REACH_PX && y < window->top + window->height + EDGE_REACH_PX &&
+                                  x + FILTER_LANES > window->left - EDGE_REACH_PX &&
+                                  x < window->left + window->width + EDGE_REACH_PX);
+}
+
+static void blur_paper(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < filter->taps.width && !interrupt_signal(); x += FILTER_LANES) {
+            if (!is_needed(filter, x, y))
+                continue;
+            struct filter_lanes lanes;
+            struct filter_sums sums = {0};
+            bool used[FILTER_LANES], any = lanes_fill(filter, x, y, &lanes, used);
+            for (int l = 0; l < FILTER_LANES; l++) {
+                if (!used[l])
+                    continue;
+                double radius = (double)image_row(&filter->radius, 0, y)[x + l];
+                lanes.limit[l] = (float)(radius * radius);
+            }
+            if (any)
+                filter->kernel(&filter->taps, &lanes, &sums);
+            for (int l = 0; l < FILTER_LANES && x + l < filter->taps.width; l++)
+                if (is_glossy(filter, x + l, y))
+                    pixel_write(filter, x + l, y,
+                                (double[]){sums.value[0][l], sums.value[1][l], sums.value[2][l]}, sums.value[3][l]);
+        }
+}
+
+/* Square of the least angle by which the mirror direction turns from a pixel to a neighbour: the farther away things
+ * are, the nearer the angle between their endpoints comes to it. With a margin, for it changes over the picture. */
+static double gradient_least(const struct filter *filter, int x, int y)
+{
+    const double margin = 1.5;
+    double own[3], least = INFINITY;
+    float a[3];
+    position_at(filter, x, y, a);
+    direction_to(filter, a, x, y, own);
+    for (int n = 0; n < 4; n++) {
+        int u = x + neighbours[n][0], v = y + neighbours[n][1];
+        double other[3], square = 0;
+        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
+            continue;
+        position_at(filter, u, v, a);
+        direction_to(filter, a, u, v, other);
+        for (int i = 0; i < 3; i++)
+            square += (other[i] - own[i]) * (other[i] - own[i]);
+        least = fmin(least, square);
+    }
+    return isinf(least) ? 0 : least / (margin * margin);
+}
+
+/* tan^2(theta) at which nothing is left of the lobe: where cos^p is the floor, or the user's limit. */
+static double lobe_reach(const struct filter *filter, double phong)
+{
+    const double ninety_degrees = 0x1p99;
+    double limit = tan(filter->options->max_angle_rad), reach = pow(filter->floor, -2 / phong) - 1;
+    return fmin(fmin(reach, filter->options->max_angle_rad < pi / 2 ? limit * limit : INFINITY), ninety_degrees);
+}
+
+/* What the sums over all endpoints about a pixel, seen from its a or not, count beside the sums over what is seen. */
+struct help {
+    double share;   /* factor of these sums */
+    double missing; /* their weights come to this many steradians besides */
+};
+
+/* A lobe that is narrow for the mirror's curvature holds few pixels, and chance errs more there than what should be
+ * hidden: share = (pool_pixels / pixels in the lobe)^2, less a little. And half of what no seen pixel covers is taken
+ * from the others. */
+static struct help help_needed(const struct filter *filter, const struct filter_lanes *lanes, int l, double seen)
+{
+    double phong = exponent_at(filter, lanes->x + l, lanes->y), distance = (double)lanes->distance[l];
+    double area = (double)*tap_at(filter, FILTER_PLANE_AREA, lanes->x + l, lanes->y);
+    double pixels = lobe_integral(phong, 0) / (area / (distance * distance + area / (2 * pi)));
+    double lobe = lobe_integral(phong, filter->floor);
+    double few = pool_pixels / pixels;
+    struct help help = {.share = fmax(few * few - pool_share_least, 0),
+                        .missing = missing_share * fmax((1 - missing_least) * lobe - seen, 0)};
+    if (filter->options->without & FILTER_WITHOUT_POOL || image_row(&filter->radius, 0, lanes->y)[lanes->x + l] < 1)
+        return (struct help){0};
+    return help;
+}
+
+static void blur_best_lanes(struct filter *filter, int x, int y, float *scratch)
+{
+    struct filter_lanes lanes;
+    struct filter_sums seen = {0}, pool = {0};
+    struct help help[FILTER_LANES] = {{0}};
+    bool used[FILTER_LANES], steep = lanes_fill(filter, x, y, &lanes, used), any_help = false;
+    const bool any = steep, narrow = lanes.narrow;
+    lanes.limit_px = (int)filter->radius_limit_px;
+    lanes.floor = (float)filter->floor;
+    lanes.hidden = filter->options->without & FILTER_WITHOUT_VISIBILITY ? FLT_MAX : hidden_ratio;
+    for (int l = 0; l < FILTER_LANES; l++) {
+        if (!used[l])
+            continue;
+        lanes.reach[l] = (float)lobe_reach(filter, exponent_at(filter, x + l, y));
+        lanes.blind[l] = fminf(lanes.reach[l] * lanes.hidden, FLT_MAX);
+        lanes.step[l] = (float)gradient_least(filter, x + l, y);
+        steep = steep && lanes.reach[l] <= FILTER_NARROW_REACH;
+    }
+    lanes.narrow = steep;
+    if (any)
+        filter->see(&filter->taps, &lanes, scratch, &seen);
+    lanes.narrow = narrow;
+    for (int l = 0; l < FILTER_LANES; l++) {
+        if (used[l])
+            help[l] = help_needed(filter, &lanes, l, seen.value[3][l]);
+        if (help[l].share == 0 && help[l].missing == 0)
+            continue;
+        double radius = (double)image_row(&filter->radius, 0, y)[x + l];
+        lanes.limit[l] = (float)(radius * radius);
+        any_help = true;
+    }
+    if (any_help)
+        filter->kernel(&filter->taps, &lanes, &pool);
+    for (int l = 0; l < FILTER_LANES && x + l < filter->taps.width; l++) {
+        if (!is_glossy(filter, x + l, y))
+            continue;
+        double sums[4], share = help[l].share;
+        if (help[l].missing > 0 && pool.value[3][l] > 0)
+            share += help[l].missing / pool.value[3][l];
+        for (int i = 0; i < 4; i++)
+            sums[i] = seen.value[i][l] + share * pool.value[i][l];
+        pixel_write(filter, x + l, y, sums, sums[3]);
+        double lobe = lobe_integral(exponent_at(filter, x + l, y), filter->floor);
+        image_row(&filter->confidence, 0, y)[x + l] = used[l] ? (float)fmin(seen.value[3][l] / lobe, 1) : 1;
+    }
+}
+
+static void blur_best(void *context, int first, int end)
+{
+    struct filter *filter = context;
+    float *scratch = aligned_alloc(64, FILTER_SEE_COLUMNS(filter->taps.width) * 3 * FILTER_LANES * sizeof *scratch);
     if (!scratch) {
         atomic_store(&filter->out_of_memory, true);
         return;
     }
     for (int y = first; y < end; y++)
-        for (int x = 0; x < filter->level->taps.width && !interrupt_signal(); x += FILTER_LANES)
-            if (filter_level_needs(filter->level, x, x + FILTER_LANES - 1, y))
-                filter_level_blur(filter->level, &filter->view, 0, x, y, scratch);
+        for (int x = 0; x < filter->taps.width && !interrupt_signal(); x += FILTER_LANES)
+            if (is_needed(filter, x, y))
+                blur_best_lanes(filter, x, y, scratch);
     free(scratch);
 }
 
-/* Every pixel by itself. */
-static enum result filter_exact(struct filter_level *level, struct error *err)
-{
-    struct filter filter = {.level = level, };
-    enum result result = filter_cells_view(level, 0, 1, &filter.view, err);
-    if (result == RESULT_OK)
-        result = bands_run(level->taps.height, 1, level->shared->options->threads, blur, &filter, err);
-    if (result == RESULT_OK && atomic_load(&filter.out_of_memory))
-        result = error_memory(err, (double)(filter_level_scratch(&filter.view) * sizeof(float)));
-    return result;
-}
-
 /* Mean of the results of the nearest ring of pixels that has glossy ones. */
-static void edge_fill(const struct filter_level *level, int x, int y)
+static void edge_fill(const struct filter *filter, int x, int y)
 {
-    for (int reach = 1; reach <= FILTER_EDGE_REACH_PX; reach++) {
+    for (int reach = 1; reach <= EDGE_REACH_PX; reach++) {
         double sum[3] = {0};
         int count = 0;
         for (int v = y - reach; v <= y + reach; v++)
             for (int u = x - reach; u <= x + reach; u++) {
-                if (u < 0 || v < 0 || u >= level->taps.width || v >= level->taps.height ||
-                    !filter_level_is_tap(level, u, v))
+                if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
                     continue;
                 for (int i = 0; i < 3; i++)
-                    sum[i] += (double)image_row(&level->glossy, i, v)[u];
+                    sum[i] += (double)image_row(filter->glossy, i, v)[u];
                 count++;
             }
         for (int i = 0; i < 3 && count > 0; i++)
-            image_row(&level->glossy, i, y)[x] = (float)(sum[i] / count);
+            image_row(filter->glossy, i, y)[x] = (float)(sum[i] / count);
         if (count > 0)
             return;
     }
@@ -83,15 +623,15 @@ static void edge_fill(const struct filter_level *level, int x, int y)
 
 static void edges(void *context, int first, int end)
 {
-    const struct filter_level *level = context;
-    const struct image *reflectance = &level->shared->gbuffer->reflectance;
+    struct filter *filter = context;
+    const struct image *reflectance = &filter->gbuffer->reflectance;
     for (int y = first; y < end; y++)
-        for (int x = 0; x < level->taps.width; x++) {
+        for (int x = 0; x < filter->taps.width; x++) {
             bool reflects = false;
             for (int i = 0; i < 3; i++)
                 reflects = reflects || image_row(reflectance, i, y)[x] > 0;
-            if (reflects && !filter_level_is_tap(level, x, y))
-                edge_fill(level, x, y);
+            if (reflects && !is_glossy(filter, x, y))
+                edge_fill(filter, x, y);
         }
 }
 
@@ -132,32 +672,62 @@ static enum result check(const struct gbuffer *gbuffer, const struct filter_opti
     return RESULT_OK;
 }
 
-static void shared_choose(struct filter_shared *shared)
+static enum result filter_alloc(struct filter *filter, struct error *err)
 {
     static filter_kernel *const kernels[CPU_ISA_COUNT] = {[CPU_ISA_SSE2] = filter_kernel_sse2,
                                                           [CPU_ISA_AVX2] = filter_kernel_avx2,
                                                           [CPU_ISA_AVX512] = filter_kernel_avx512};
     static filter_see *const sees[CPU_ISA_COUNT] = {
         [CPU_ISA_SSE2] = filter_see_sse2, [CPU_ISA_AVX2] = filter_see_avx2, [CPU_ISA_AVX512] = filter_see_avx512};
-    const struct filter_options *options = shared->options;
+    const struct filter_options *options = filter->options;
+    const int width = filter->gbuffer->specular.width, height = filter->gbuffer->specular.height;
     const enum cpu_isa isa = options->isa == CPU_ISA_AUTO ? cpu_isa_best() : options->isa;
-    shared->kernel = kernels[isa];
-    shared->see = sees[isa];
-    shared->energy = options->energy > 0 ? options->energy : 0.99;
-    shared->floor = options->energy > 0 ? 1 - options->energy : 0.001;
-    shared->radius_limit_px = hypot(shared->gbuffer->specular.width, shared->gbuffer->specular.height);
+    filter->kernel = kernels[isa];
+    filter->see = sees[isa];
+    filter->energy = options->energy > 0 ? options->energy : 0.99;
+    filter->floor = options->energy > 0 ? 1 - options->energy : 0.001;
+    filter->radius_limit_px = hypot(width, height);
     if (options->max_radius_px > 0)
-        shared->radius_limit_px = fmin(shared->radius_limit_px, options->max_radius_px);
-    filter_level_scales(shared);
+        filter->radius_limit_px = fmin(filter->radius_limit_px, options->max_radius_px);
+
+    size_t stride = ((size_t)width + FILTER_LANES - 1) / FILTER_LANES * FILTER_LANES + 2 * FILTER_BORDER;
+    size_t plane = stride * (size_t)height, blocks = plane / FILTER_LANES;
+    size_t bytes = plane * FILTER_PLANES * sizeof(float);
+    filter->planes = aligned_alloc(64, bytes);
+    filter->kinds = calloc(blocks, 1);
+    filter->boxes = malloc(blocks * sizeof *filter->boxes);
+    filter->table = malloc(WEIGHTS_TABLE_SIZE * sizeof *filter->table);
+    if (!filter->planes || !filter->kinds || !filter->boxes || !filter->table)
+        return error_memory(err, (double)bytes);
+    for (size_t i = 0; i < blocks; i++)
+        filter->boxes[i] = empty_box;
+    memset(filter->planes, 0, bytes);
+    weights_table_build(filter->table);
+    filter->taps = (struct filter_taps){
+        .width = width,
+        .height = height,
+        .stride = stride,
+        .kinds = filter->kinds,
+        .boxes = filter->boxes,
+        .square = options->window == FILTER_WINDOW_SQUARE,
+        .shape = options->mode == FILTER_MODE_PAPER ? shape_of(options->weights) : FILTER_SHAPE_SOLID,
+        .table = filter->table,
+    };
+    for (int i = 0; i < FILTER_PLANES; i++)
+        filter->taps.planes[i] = filter->planes + (size_t)i * plane;
+    enum result result = image_alloc(&filter->radius, width, height, 1, err);
+    if (result == RESULT_OK)
+        result = image_alloc(&filter->confidence, width, height, 1, err);
+    if (result == RESULT_OK)
+        result = image_alloc(filter->glossy, width, height, 3, err);
+    return result;
 }
 
 enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_options *options, struct image *glossy,
                           struct image *measure, struct error *err)
 {
-    struct filter_shared shared = {.gbuffer = gbuffer, .options = options};
-    struct filter_level level = {0};
+    struct filter filter = {.gbuffer = gbuffer, .options = options, .glossy = glossy};
     const int threads = options->threads, step = options->radius_step;
-    const int height = gbuffer->specular.height;
     const bool paper = options->mode == FILTER_MODE_PAPER;
     *glossy = (struct image){0};
     if (measure)
@@ -165,36 +735,41 @@ enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_opt
     enum result result = check(gbuffer, options, err);
     if (result != RESULT_OK)
         return result;
-    shared.table = malloc(WEIGHTS_TABLE_SIZE * sizeof *shared.table);
-    if (!shared.table)
-        return error_memory(err, (double)(WEIGHTS_TABLE_SIZE * sizeof *shared.table));
-    weights_table_build(shared.table);
-    shared_choose(&shared);
-    result = filter_level_alloc(&level, &shared, err);
-    if (result == RESULT_OK)
-        result = bands_run(height, 16, threads, filter_level_taps, &level, err);
+    result = filter_alloc(&filter, err);
+    if (result != RESULT_OK)
+        goto out;
+    const int height = filter.taps.height;
+
+    scales_find(&filter);
+    result = bands_run(height, 16, threads, taps_fill, &filter, err);
     if (result == RESULT_OK && !paper)
-        result = bands_run(height, 16, threads, filter_level_areas, &level, err);
+        result = bands_run(height, 16, threads, areas_fill, &filter, err);
     if (result == RESULT_OK)
-        result = bands_run((height + step - 1) / step, 16, threads, filter_level_radius_coarse, &level, err);
+        result = bands_run((height + step - 1) / step, 16, threads, radius_coarse, &filter, err);
     if (result == RESULT_OK)
-        result = bands_run(height, 16, threads, filter_level_radius_fine, &level, err);
+        result = bands_run(height, 16, threads, radius_fine, &filter, err);
     if (result == RESULT_OK)
-        result = options->tolerance > 0 ? filter_sparse(&level, options->tolerance, err) : filter_exact(&level, err);
+        result = bands_run(height, 1, threads, paper ? blur_paper : blur_best, &filter, err);
+    if (result == RESULT_OK && atomic_load(&filter.out_of_memory))
+        result = error_memory(err, (double)(FILTER_SEE_COLUMNS(filter.taps.width) * 3 * FILTER_LANES * sizeof(float)));
     if (result == RESULT_OK && gbuffer->rays.pixels)
-        result = control_variate(gbuffer, options->phong_override ? options->phong : NAN, threads, &level.glossy, err);
+        result = control_variate(gbuffer, options->phong_override ? options->phong : NAN, threads, glossy, err);
     if (result == RESULT_OK && gbuffer->reflectance.pixels)
-        result = bands_run(height, 16, threads, edges, &level, err);
-    if (result == RESULT_OK) {
-        *glossy = level.glossy;
-        level.glossy = (struct image){0};
-    }
+        result = bands_run(height, 16, threads, edges, &filter, err);
     if (result == RESULT_OK && measure) {
-        struct image *found = paper ? &level.radius : &level.confidence;
+        struct image *found = paper ? &filter.radius : &filter.confidence;
         *measure = *found;
         *found = (struct image){0};
     }
-    filter_level_free(&level);
-    free(shared.table);
+
+out:
+    if (result != RESULT_OK)
+        image_free(glossy);
+    image_free(&filter.radius);
+    image_free(&filter.confidence);
+    free(filter.table);
+    free(filter.boxes);
+    free(filter.kinds);
+    free(filter.planes);
     return result;
 }

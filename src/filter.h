@@ -28,18 +28,13 @@ struct filter_options {
     double energy;        /* share of the lobe's energy within Theta, (0, 1); 0: 0.99 (paper), 0.999 (best) */
     double max_angle_rad; /* upper limit of Theta, (0, pi/2] */
     int max_radius_px;    /* upper limit of the radius; 0: none but the picture's diagonal */
-    double tolerance;     /* 0: every pixel is summed by itself, exactly; above: the fast filter, see filter_glossy() */
     int radius_step;      /* 1, 2, 4 or 8: the radius is computed at every so-many-th pixel and interpolated */
     int threads;          /* 0: as many as there are processors */
     enum cpu_isa isa;     /* the result is the same to the last bit */
 };
 
-/* Tolerances that are worth a name. */
-#define FILTER_TOLERANCE_FINE 0.002
-#define FILTER_TOLERANCE_FAST 0.006
-
-/* Best; exact sums, exact weights, Phong formula, round window, no exponent, the mode's energy, no limits, radius at
- * every pixel. */
+/* Best; exact weights, Phong formula, round window, no exponent, the mode's energy, no limits, radius at every pixel.
+ * */
 struct filter_options filter_options_default(void);
 
 /* glossy (allocated here, 3 channels; the caller frees it) = the specular plane blurred where the pixel is glossy;
@@ -68,13 +63,6 @@ struct filter_options filter_options_default(void);
  *
  * Weights are relative to the pixel's own endpoint and good to about 1e-6 + 1e-7 sqrt(p) (float positions are no
  * better), tabulated ones to 3.2e-5 more.
- *
- * The fast filter (tolerance above 0) sums every 16th pixel of every 16th row, and halves these distances until all
- * pixels are known: interpolated (cubic, or linear at edges) where position and direction are what interpolation gives
- * and where it came within the tolerance of the sums beside it, else summed. The sums beyond 8, 16, 32 or 64 pixels
- * from the pixel's own are taken from cells of 2 x 2, 4 x 4 ... pixels, that stand for the mean by solid angle of what
- * is in them; the first of these reaches that is within the tolerance, found at every 16th pixel, serves for those
- * between. What is small and between the first pixels can be missed: docs/performance.md has the errors measured.
  *
  * A gbuffer with a window has the results that its picture needs alone; the rest of both images is 0.
  *

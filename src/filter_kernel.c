@@ -173,7 +173,7 @@ ALWAYS_INLINE void look_up(const float *table, float *weights)
 
 /* One tap for all lanes. */
 ALWAYS_INLINE void add_tap(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
-                           float separation, enum path path, bool mixed, bool solid, const float *restrict gain,
+                           float separation, enum path path, bool mixed, bool solid,
                            float (*sums)[FILTER_LANES])
 {
     _Alignas(64) float weights[FILTER_LANES];
@@ -181,19 +181,12 @@ ALWAYS_INLINE void add_tap(const struct filter_taps *taps, const struct filter_l
     if (path == PATH_TABLE)
         look_up(taps->table, weights);
     for (int l = 0; l < FILTER_LANES; l++) {
-        float f = weights[l] * gain[l];
+        float f = weights[l] * taps->planes[FILTER_PLANE_GAIN][tap + (size_t)l];
         sums[0][l] += f * taps->planes[FILTER_PLANE_R][tap + (size_t)l];
         sums[1][l] += f * taps->planes[FILTER_PLANE_G][tap + (size_t)l];
         sums[2][l] += f * taps->planes[FILTER_PLANE_B][tap + (size_t)l];
         sums[3][l] += f;
     }
-}
-
-/* Leaves only the lanes for which the outermost column counts. */
-ALWAYS_INLINE void ring_mask(const struct filter_ring *ring, int dx, float *values)
-{
-    for (int l = 0; l < FILTER_LANES; l++)
-        values[l] = ring->odd[l] == (dx < 0) ? values[l] : 0.0f;
 }
 
 /* Up to 16 columns of one row of taps. Floats hold the sum of these few; more would lose digits. */
@@ -202,19 +195,13 @@ ALWAYS_INLINE void add_columns(const struct filter_taps *taps, const struct filt
 {
     _Alignas(64) float partial[4][FILTER_LANES] = {{0}};
     size_t row = (size_t)(lanes->y + dy) * taps->stride;
-    const struct filter_ring *ring = &lanes->ring;
     for (int dx = first; dx <= last; dx++) {
         float separation = (float)dx * (float)dx + (float)dy * (float)dy;
         if (taps->square) {
             int side = abs(dx) > abs(dy) ? abs(dx) : abs(dy);
             separation = (float)side * (float)side;
         }
-        size_t tap = row + filter_taps_column(taps, lanes->x + dx * ring->step);
-        _Alignas(64) float gain[FILTER_LANES];
-        memcpy(gain, taps->planes[FILTER_PLANE_GAIN] + tap, sizeof gain);
-        if (abs(dx) == ring->outer)
-            ring_mask(ring, dx, gain);
-        add_tap(taps, lanes, tap, separation, path, mixed, solid, gain, partial);
+        add_tap(taps, lanes, row + (size_t)(lanes->x + dx + FILTER_BORDER), separation, path, mixed, solid, partial);
     }
     for (int i = 0; i < 4; i++)
         for (int l = 0; l < FILTER_LANES; l++)
@@ -273,48 +260,16 @@ static bool is_far(const struct filter_lanes *lanes, const struct filter_box *bo
     return lanes->farthest * lanes->farthest <= NEAR_RATIO * NEAR_RATIO * square;
 }
 
-/* The blocks of the planes that columns dx from first to last of a row meet. */
-struct blocks {
-    size_t first, last;
-};
-
-static struct blocks blocks_of(const struct filter_taps *taps, const struct filter_lanes *lanes, int dy, int first,
-                               int last)
+/* Whether some lanes may find taps of another kind, or near ones, in two neighbouring blocks. */
+static bool is_mixed(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t block)
 {
-    const int step = lanes->ring.step, count = (int)(taps->stride >> taps->shift) / FILTER_LANES;
-    int low = lanes->x + first * step, high = lanes->x + last * step + ((FILTER_LANES - 1) << taps->shift);
-    low = ((low >> taps->shift) + FILTER_BORDER) / FILTER_LANES;
-    high = ((high >> taps->shift) + FILTER_BORDER) / FILTER_LANES;
-    size_t row = (size_t)(lanes->y + dy) * (size_t)count;
-    return (struct blocks){row + (size_t)(low < 0 ? 0 : low), row + (size_t)(high < count ? high : count - 1)};
-}
-
-/* Columns to the left of the last lane's own, at least. */
-static int lanes_reach(const struct filter_taps *taps, const struct filter_lanes *lanes)
-{
-    return lanes->x + ((FILTER_LANES - 1) << taps->shift);
-}
-
-/* How the taps in some blocks are to be looked at. */
-enum meeting { MEET_NOTHING, MEET_UNIFORM, MEET_MIXED };
-
-/* MIXED: some lanes may find taps of another kind, or near ones. */
-static enum meeting meeting_of(const struct filter_taps *taps, const struct filter_lanes *lanes, struct blocks blocks)
-{
-    unsigned found = 0;
-    for (size_t block = blocks.first; block <= blocks.last; block++)
-        found |= taps->kinds[block];
-    if (!found)
-        return MEET_NOTHING;
-    unsigned kinds = found | lanes->kinds;
+    unsigned kinds = (unsigned)(taps->kinds[block] | taps->kinds[block + 1] | lanes->kinds);
     if (kinds == FILTER_KIND_DIRECTION)
-        return MEET_UNIFORM;
+        return false;
     if (kinds != FILTER_KIND_POSITION)
-        return MEET_MIXED;
-    for (size_t block = blocks.first; block <= blocks.last; block++)
-        if (taps->kinds[block] && !is_far(lanes, taps->boxes + block))
-            return MEET_MIXED;
-    return MEET_UNIFORM;
+        return true;
+    return (taps->kinds[block] && !is_far(lanes, taps->boxes + block)) ||
+           (taps->kinds[block + 1] && !is_far(lanes, taps->boxes + block + 1));
 }
 
 void CONCATENATE(filter_kernel_, FILTER_KERNEL_ISA)(const struct filter_taps *taps, const struct filter_lanes *lanes,
@@ -326,28 +281,23 @@ void CONCATENATE(filter_kernel_, FILTER_KERNEL_ISA)(const struct filter_taps *ta
         limit = fmax(limit, (double)lanes->limit[l]);
     if (limit < 0)
         return;
-    add_columns_function *functions[] = {[MEET_UNIFORM] = choose(taps->shape, lanes->narrow, false),
-                                         [MEET_MIXED] = choose(taps->shape, lanes->narrow, true)};
-    const struct filter_ring *ring = &lanes->ring;
+    add_columns_function *uniform = choose(taps->shape, lanes->narrow, false);
+    add_columns_function *mixed = choose(taps->shape, lanes->narrow, true);
+    size_t blocks_per_row = taps->stride / FILTER_LANES;
     double reach = floor(sqrt(limit));
-    int above = (int)fmin(fmin(reach, lanes->y), -ring->first);
-    int below = (int)fmin(fmin(reach, taps->height - 1 - lanes->y), ring->last);
+    int above = (int)fmin(reach, lanes->y), below = (int)fmin(reach, taps->height - 1 - lanes->y);
     for (int dy = -above; dy <= below; dy++) {
-        double half = fmin(taps->square ? reach : floor(sqrt(limit - (double)dy * dy)), ring->outer);
-        int first = -(int)fmin(half, lanes_reach(taps, lanes) / ring->step);
-        int last = (int)fmin(half, (taps->width - 1 - lanes->x) / ring->step);
-        for (int dx = first; dx <= last;) {
-            if (abs(dy) <= ring->inner && abs(dx) <= ring->inner) {
-                dx = ring->inner + 1;
+        double half = taps->square ? reach : floor(sqrt(limit - (double)dy * dy));
+        int first = -(int)fmin(half, lanes->x + FILTER_LANES - 1), last = (int)fmin(half, taps->width - 1 - lanes->x);
+        size_t row = (size_t)(lanes->y + dy) * blocks_per_row;
+        /* Lanes and columns of a multiple of 16 meet two blocks of the planes. */
+        int start = -((FILTER_LANES - 1 - first) / FILTER_LANES) * FILTER_LANES;
+        for (int dx = start; dx <= last; dx += FILTER_LANES) {
+            size_t block = row + (size_t)(lanes->x + dx + FILTER_BORDER) / FILTER_LANES;
+            if (!taps->kinds[block] && !taps->kinds[block + 1])
                 continue;
-            }
-            int to = dx + FILTER_LANES - 1 < last ? dx + FILTER_LANES - 1 : last;
-            if (abs(dy) <= ring->inner && dx < 0 && to >= -ring->inner)
-                to = -ring->inner - 1;
-            enum meeting meeting = meeting_of(taps, lanes, blocks_of(taps, lanes, dy, dx, to));
-            if (meeting != MEET_NOTHING)
-                functions[meeting](taps, lanes, dy, dx, to, sums);
-            dx = to + 1;
+            int from = dx > first ? dx : first, to = dx + FILTER_LANES - 1 < last ? dx + FILTER_LANES - 1 : last;
+            (is_mixed(taps, lanes, block) ? mixed : uniform)(taps, lanes, dy, from, to, sums);
         }
     }
 }
@@ -390,10 +340,10 @@ ALWAYS_INLINE float narrow_log2_of_1_plus(float t)
 /* One tap for all lanes, `separation` pixels^2 away; `least` is lowered to its state less where the lanes are blind.
  * Where no endpoint is known the angle is what a surface that goes on unchanged would give for the farthest things. */
 ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
-                           float separation, bool narrow, bool mixed, bool counts, const float *restrict area,
-                           const float *restrict before, float *restrict own, float *restrict least,
-                           float (*sums)[FILTER_LANES])
+                           float separation, bool narrow, bool mixed, const float *restrict before,
+                           float *restrict own, float *restrict least, float (*sums)[FILTER_LANES])
 {
+    const float *area = taps->planes[FILTER_PLANE_AREA] + tap;
     const float *red = taps->planes[FILTER_PLANE_R] + tap;
     const float *green = taps->planes[FILTER_PLANE_G] + tap;
     const float *blue = taps->planes[FILTER_PLANE_B] + tap;
@@ -404,26 +354,21 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
         float t = qq / (c * c);
         t = t < 0x1p100f ? t : 0x1p100f; /* also NaN */
         t = c > 0.0f ? t : 0x1p100f;
-        float f = 0.0f;
-        if (counts) {
-            f = power_to_weight(-lanes->slope[l] * (narrow ? narrow_log2_of_1_plus(t) : log2_of_1_plus(t)));
-            f -= lanes->floor;
-            f = f > 0.0f ? f : 0.0f;
-            f = t * lanes->hidden >= high ? f : 0.0f;
-            f = t <= reach ? f : 0.0f;
-            f *= solid_angle(area[l], c, qq);
-        }
+        float f = power_to_weight(-lanes->slope[l] * (narrow ? narrow_log2_of_1_plus(t) : log2_of_1_plus(t)));
+        f -= lanes->floor;
+        f = f > 0.0f ? f : 0.0f;
+        f = t * lanes->hidden >= high ? f : 0.0f;
+        f = t <= reach ? f : 0.0f;
+        f *= solid_angle(area[l], c, qq);
         t = area[l] > 0.0f ? t : far;
         t = t > high ? t : high;
         largest[l] = t;
         t -= lanes->blind[l];
         least[l] = t < least[l] ? t : least[l];
-        if (counts) {
-            sums[0][l] += f * red[l];
-            sums[1][l] += f * green[l];
-            sums[2][l] += f * blue[l];
-            sums[3][l] += f;
-        }
+        sums[0][l] += f * red[l];
+        sums[1][l] += f * green[l];
+        sums[2][l] += f * blue[l];
+        sums[3][l] += f;
     }
     memcpy(own, largest, sizeof largest);
 }
@@ -449,7 +394,6 @@ ALWAYS_INLINE bool see_columns(const struct filter_taps *taps, const struct filt
     _Alignas(64) float partial[4][FILTER_LANES] = {{0}};
     _Alignas(64) float least[FILTER_LANES], before[FILTER_LANES];
     size_t row = (size_t)(lanes->y + dy) * taps->stride;
-    const struct filter_ring *ring = &lanes->ring;
     int away = abs(dy), step = last < first ? -1 : 1, count = abs(last - first) + 1;
     for (int l = 0; l < FILTER_LANES; l++)
         least[l] = INFINITY;
@@ -458,19 +402,12 @@ ALWAYS_INLINE bool see_columns(const struct filter_taps *taps, const struct filt
         struct way way = way_to(here, above, dx, away);
         for (int l = 0; l < FILTER_LANES; l++)
             before[l] = way.first[l] < way.second[l] ? way.first[l] : way.second[l];
-        if (nothing) {
+        if (nothing)
             see_nothing(lanes, separation, before, here[dx], least);
-            continue;
-        }
-        size_t tap = row + filter_taps_column(taps, lanes->x + dx * ring->step);
-        _Alignas(64) float area[FILTER_LANES];
-        memcpy(area, taps->planes[FILTER_PLANE_AREA] + tap, sizeof area);
-        if (abs(dx) == ring->outer)
-            ring_mask(ring, dx, area);
-        if (away > ring->inner || abs(dx) > ring->inner)
-            see_tap(taps, lanes, tap, separation, narrow, mixed, true, area, before, here[dx], least, partial);
         else
-            see_tap(taps, lanes, tap, separation, narrow, mixed, false, area, before, here[dx], least, partial);
+            see_tap(taps, lanes, row + (size_t)(lanes->x + dx + FILTER_BORDER), separation, narrow, mixed, before,
+                    here[dx],
+                    least, partial);
     }
     for (int i = 0; i < 4 && !nothing; i++)
         for (int l = 0; l < FILTER_LANES; l++)
@@ -496,18 +433,17 @@ DEFINE_SEE(see_wide, false, false, false)
 DEFINE_SEE(see_wide_mixed, false, true, false)
 DEFINE_SEE(see_nowhere, false, false, true)
 
-static see_columns_function *choose_see(const struct filter_taps *taps, const struct filter_lanes *lanes, int first,
-                                        int last, int dy)
+/* For a chunk whose leftmost column is `left`: it meets two blocks of the planes. */
+static see_columns_function *choose_see(const struct filter_taps *taps, const struct filter_lanes *lanes, int left,
+                                        int dy)
 {
-    switch (meeting_of(taps, lanes, blocks_of(taps, lanes, dy, first, last))) {
-    case MEET_NOTHING:
+    size_t block = ((size_t)(lanes->y + dy) * taps->stride + (size_t)(lanes->x + left + FILTER_BORDER)) / FILTER_LANES;
+    if (!taps->kinds[block] && !taps->kinds[block + 1])
         return see_nowhere;
-    case MEET_UNIFORM:
-        return lanes->narrow ? see_narrow : see_wide;
-    case MEET_MIXED:
-        break;
-    }
-    return lanes->narrow ? see_narrow_mixed : see_wide_mixed;
+    bool mixed = is_mixed(taps, lanes, block);
+    if (lanes->narrow)
+        return mixed ? see_narrow_mixed : see_narrow;
+    return mixed ? see_wide_mixed : see_wide;
 }
 
 /* Live chunks of CHUNK columns to one side of the lanes' own: chunk 0 begins beside column 0 (right: with it). */
@@ -545,8 +481,8 @@ static void close_chunk(const struct side *side, int chunk, state *row)
 }
 
 /* One side of a row, outward from its live chunks of the row before. Columns that are
- * looked at though nothing reached them are closed. Whether something is seen beyond the limit. */
-static bool see_side(const struct filter_taps *taps, const struct filter_lanes *lanes, struct side *side, int dy,
+ * looked at though nothing reached them are closed. */
+static void see_side(const struct filter_taps *taps, const struct filter_lanes *lanes, struct side *side, int dy,
                      state *here, state *above, struct filter_sums *sums)
 {
     const int first = side->first, last = side->last;
@@ -558,7 +494,7 @@ static bool see_side(const struct filter_taps *taps, const struct filter_lanes *
     if (side->step > 0 && (chunk > 0 || chunk > end))
         close_column(here, 0);
     if (chunk > end)
-        return false;
+        return;
     if (chunk > 0)
         close_column(here, chunk_column(side, chunk) - side->step);
     if (dy != 0 && last >= 0)
@@ -567,7 +503,7 @@ static bool see_side(const struct filter_taps *taps, const struct filter_lanes *
         int from = chunk_column(side, chunk), to = from + side->step * (CHUNK - 1);
         if (abs(from) > side->limit)
             break;
-        see_columns_function *see = choose_see(taps, lanes, from < to ? from : to, from < to ? to : from, dy);
+        see_columns_function *see = choose_see(taps, lanes, from < to ? from : to, dy);
         if (dy != 0 && (chunk < first || chunk > last))
             close_chunk(side, chunk, above);
         for (; abs(to) > side->limit; to -= side->step)
@@ -580,46 +516,40 @@ static bool see_side(const struct filter_taps *taps, const struct filter_lanes *
     }
     if (chunk <= side->last + 1)
         close_chunk(side, chunk, here);
-    return live;
 }
 
-/* One row, right and left. Whether there is more beyond; `outside`: whether there is more beyond its ends. */
+/* One row, right and left. Whether there is more beyond. */
 static bool see_row(const struct filter_taps *taps, const struct filter_lanes *lanes, struct side sides[2], int dy,
-                    state *here, state *above, struct filter_sums *sums, bool *outside)
+                    state *here, state *above, struct filter_sums *sums)
 {
     double width = sqrt(fmax((double)lanes->limit_px * lanes->limit_px - (double)dy * dy, 0));
-    width = fmin(width, lanes->ring.outer);
-    sides[0].limit = (int)fmin(width, (taps->width - 1 - lanes->x) / lanes->ring.step);
-    sides[1].limit = (int)fmin(width, lanes_reach(taps, lanes) / lanes->ring.step);
-    for (int i = 0; i < 2; i++)
-        *outside |= see_side(taps, lanes, &sides[i], dy, here, above, sums);
+    sides[0].limit = (int)fmin(width, taps->width - 1 - lanes->x);
+    sides[1].limit = (int)fmin(width, lanes->x + FILTER_LANES - 1);
+    see_side(taps, lanes, &sides[0], dy, here, above, sums);
+    see_side(taps, lanes, &sides[1], dy, here, above, sums);
     return sides[0].first <= sides[0].last || sides[1].first <= sides[1].last;
 }
 
-bool CONCATENATE(filter_see_, FILTER_KERNEL_ISA)(const struct filter_taps *taps, const struct filter_lanes *lanes,
+void CONCATENATE(filter_see_, FILTER_KERNEL_ISA)(const struct filter_taps *taps, const struct filter_lanes *lanes,
                                                  float *scratch, struct filter_sums *sums)
 {
-    size_t columns = FILTER_SEE_COLUMNS(taps->width, taps->shift);
-    state *rows = (state *)scratch + lanes_reach(taps, lanes) + 1 + 2 * CHUNK;
+    size_t columns = FILTER_SEE_COLUMNS(taps->width);
+    state *rows = (state *)scratch + lanes->x + FILTER_LANES + 2 * CHUNK;
     state *centre = rows, *others[2] = {rows + columns, rows + 2 * columns};
     struct side start[2] = {{.step = 1, .first = 0, .last = 0}, {.step = -1, .first = 0, .last = 0}};
-    bool outside = false;
     memset(sums, 0, sizeof *sums);
     memset(others[0][0], 0, sizeof(state)); /* on the way to the lanes' own pixels there is nothing */
-    if (!see_row(taps, lanes, start, 0, centre, others[0], sums, &outside))
-        return outside;
+    if (!see_row(taps, lanes, start, 0, centre, others[0], sums))
+        return;
     for (int direction = -1; direction <= 1; direction += 2) {
         struct side sides[2] = {start[0], start[1]};
         state *above = centre;
-        int end = (int)fmin(lanes->limit_px, direction < 0 ? fmin(lanes->y, -lanes->ring.first)
-                                                           : fmin(taps->height - 1 - lanes->y, lanes->ring.last));
-        bool more = true;
-        for (int away = 1; away <= end && more; away++) {
+        int end = (int)fmin(lanes->limit_px, direction < 0 ? lanes->y : taps->height - 1 - lanes->y);
+        for (int away = 1; away <= end; away++) {
             state *here = others[away & 1];
-            more = see_row(taps, lanes, sides, direction * away, here, above, sums, &outside);
+            if (!see_row(taps, lanes, sides, direction * away, here, above, sums))
+                break;
             above = here;
         }
-        outside |= more;
     }
-    return outside;
 }

@@ -10,8 +10,7 @@
 
 enum {
     FILTER_LANES = 16,
-    /* Unusable columns left and right of the picture (of each phase of the columns), so that no lane reads outside and
-     * no column needs a test. */
+    /* Unusable columns left and right of the picture, so that no lane reads outside and no column needs a test. */
     FILTER_BORDER = FILTER_LANES
 };
 
@@ -40,29 +39,19 @@ struct filter_box {
     float low[3], high[3];
 };
 
-/* All pixels as taps: what a neighbour gives. The columns of a row are sorted by phase, their index modulo 2^shift, so
- * that every 2^shift-th column of the picture is next to the one before: column x is float
- * filter_taps_column(taps, x) of a row. */
+/* All pixels as taps: what a neighbour gives. Column x of the picture is column x + FILTER_BORDER of the planes. */
 struct filter_taps {
     int width, height;                   /* of the picture */
-    int shift;
-    size_t stride;                       /* floats from row to row of a plane: 2^shift phases of a multiple of 16 */
-    float *planes[FILTER_PLANES];
-    unsigned char *kinds;                /* (stride >> shift) / 16 blocks a row: 16 columns of every phase together */
-    struct filter_box *boxes;            /* as many */
+    size_t stride;                       /* floats from row to row of a plane: a multiple of 16 */
+    const float *planes[FILTER_PLANES];
+    const unsigned char *kinds;          /* stride / 16 blocks a row */
+    const struct filter_box *boxes;      /* as many */
     bool square;                         /* window: max(|dx|, |dy|) <= rho, else dx^2 + dy^2 <= rho^2 */
     enum filter_shape shape;
     const float *table;                  /* weights_table_build(), for FILTER_SHAPE_TABLE */
 };
 
-static inline size_t filter_taps_column(const struct filter_taps *taps, int x)
-{
-    int column = x + (FILTER_BORDER << taps->shift), phase = column & ((1 << taps->shift) - 1);
-    return (size_t)phase * (taps->stride >> taps->shift) + (size_t)(column >> taps->shift);
-}
-
-/* What is computed: 16 pixels of row y, every 2^shift-th column (of the taps) from x on. Unused lanes: limit -1, the
- * rest 0. */
+/* What is computed: 16 pixels of row y from column x on (a multiple of 16). Unused lanes: limit -1, the rest 0. */
 struct filter_lanes {
     int x, y;
     unsigned char kinds;               /* of the used lanes */
@@ -86,17 +75,6 @@ struct filter_lanes {
     float hidden;                      /* how many times larger tan^2(theta) is of what hides a tap */
     float floor;                       /* taken off cos^p; what would be negative is 0 */
     int limit_px;                      /* farthest tap from the lanes' own pixels */
-    /* Which of the taps count, where those nearer and farther are taken from planes of other resolutions: all for
-     * ring_all. */
-    struct filter_ring {
-        int step;        /* columns of the planes from one tap to the next: 2^n, where a tap is 2^n times as wide;
-                            lanes->y and all dx, dy count such taps */
-        int inner;       /* taps up to so many rows and columns away are left out; -1: none */
-        int outer;       /* so many columns away: the last on the left counts for odd lanes only, on the right for even
-                            ones */
-        int first, last; /* rows that count, relative to y */
-        bool odd[FILTER_LANES];
-    } ring;
 };
 
 /* sum f L0 (R, G, B) and sum f of equation (1). */
@@ -123,13 +101,11 @@ filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;
  * patch around the lane's own pixel, which grows until all of its rim is out of reach. On the way to a tap lie both
  * neighbours between which the straight line comes in, and the one with less in the way counts.
  *
- * Whether anything is seen beyond the ring's outer end.
- *
- * scratch: FILTER_SEE_COLUMNS(width, shift) * 3 * FILTER_LANES floats, aligned to 64 bytes, with any content. */
-typedef bool filter_see(const struct filter_taps *taps, const struct filter_lanes *lanes, float *scratch,
+ * scratch: FILTER_SEE_COLUMNS(width) * 3 * FILTER_LANES floats, aligned to 64 bytes, with any content. */
+typedef void filter_see(const struct filter_taps *taps, const struct filter_lanes *lanes, float *scratch,
                         struct filter_sums *sums);
 
-#define FILTER_SEE_COLUMNS(width, shift) ((size_t)(width) + ((size_t)FILTER_LANES << (shift)) + 64)
+#define FILTER_SEE_COLUMNS(width) ((size_t)(width) + 64)
 
 filter_see filter_see_sse2, filter_see_avx2, filter_see_avx512;
 

@@ -61,7 +61,7 @@ tells_version() {
 }
 
 filter_options=(--phong --roughness --mode --weights --formula --window --energy --max-angle --max-radius --radius-step
-    --without --quality --tolerance --threads --isa --format --bits)
+    --without --threads --isa --format --bits)
 own_options=(--depfile -o --from-scene --resume --subsample --jobs --keep --povray --grid --error --samples --seed)
 check "povgloss --help names every option" \
     helps povgloss "${own_options[@]}" "${filter_options[@]}" --layers -q --quiet --help --version
@@ -128,8 +128,6 @@ for program in povgloss glossfilter; do
 --roughness 1.0001 inf -0.1
 --mode Paper paper, better
 --without all pools
---quality best Fast
---tolerance 1.01 -0.1 inf
 --weights EXACT exact, gauss0
 --formula 2 cos
 --window circle Round

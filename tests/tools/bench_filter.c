@@ -1,9 +1,11 @@
-/* Times of the filter and their errors: bench_filter PASSES.exr P THREADS RUNS NAME=TOLERANCE[:LIMIT] ...
+/* Times of the filter and their errors: bench_filter PASSES.exr RUNS "LIMIT OPTIONS" ...
  *
- * The first variant is the reference. Variants take turns, so that all meet the same load; a line has the median of the
- * RUNS times in seconds, the reference's over it, and RMSE, 99.9 % quantile and largest difference from it in linear
- * light. Status 1 where an RMSE is above its limit.
+ * Each variant is glossfilter's options; the first is the reference. Variants take turns, so that all meet the same load;
+ * a line has the median of the RUNS times in seconds, the reference's over it, and RMSE, 99.9 % quantile and largest
+ * difference from it in linear light. Status 1 where an RMSE is above its limit.
  */
+#include "cli.h"
+#include "cpu.h"
 #include "filter.h"
 #include "passes_file.h"
 
@@ -13,11 +15,12 @@
 #include <string.h>
 #include <time.h>
 
-enum { VARIANTS = 8, RUNS = 99 };
+enum { VARIANTS = 8, RUNS = 99, ARGUMENTS = 32 };
 
 struct variant {
-    const char *name;
-    double tolerance, limit, times[RUNS];
+    const char *name; /* its options */
+    struct filter_options options;
+    double limit, times[RUNS];
     struct image glossy;
 };
 
@@ -68,20 +71,41 @@ static bool compare(const struct variant *variant, const struct image *reference
     return rmse <= variant->limit;
 }
 
-static bool read_variants(int count, char **texts, struct variant *variants)
+/* Takes `text` to pieces. */
+static enum result read_variant(char *text, char *passes, struct variant *variant, struct error *err)
 {
-    for (int i = 0; i < count; i++) {
-        char *equals = strchr(texts[i], '='), *end = NULL;
-        if (!equals)
-            return false;
-        *equals = '\0';
-        variants[i].name = texts[i];
-        variants[i].tolerance = strtod(equals + 1, &end);
-        variants[i].limit = *end == ':' ? strtod(end + 1, &end) : INFINITY;
-        if (*end)
-            return false;
-    }
-    return true;
+    char *arguments[ARGUMENTS] = {"glossfilter", passes, "-o", "none.exr"}, *options;
+    struct cli_glossfilter command;
+    int count = 4;
+    variant->limit = strtod(text, &options);
+    options += strspn(options, " ");
+    char *words = strdup(options);
+    if (!words)
+        return error_memory(err, (double)strlen(options));
+    variant->name = options;
+    for (char *word = strtok(words, " "); word && count < ARGUMENTS; word = strtok(NULL, " "))
+        arguments[count++] = word;
+    enum result result = cli_glossfilter(count, arguments, &command, err);
+    variant->options = command.options.filter;
+    text_list_free(&command.map);
+    free(words);
+    return result;
+}
+
+/* Times of all variants, in turn; those that need another processor are left out. */
+static enum result run(const struct gbuffer *gbuffer, struct variant *variants, int count, int runs, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int r = 0; r < runs; r++)
+        for (int i = 0; i < count && !result; i++) {
+            if (!cpu_isa_supported(variants[i].options.isa))
+                continue;
+            image_free(&variants[i].glossy);
+            double start = seconds();
+            result = filter_glossy(gbuffer, &variants[i].options, &variants[i].glossy, NULL, err);
+            variants[i].times[r] = seconds() - start;
+        }
+    return result;
 }
 
 int main(int argc, char **argv)
@@ -89,39 +113,29 @@ int main(int argc, char **argv)
     struct variant variants[VARIANTS] = {{NULL}};
     struct gbuffer gbuffer = {0};
     struct error err;
-    const int count = argc - 5, runs = argc > 5 ? atoi(argv[4]) : 0;
-    if (count < 1 || count > VARIANTS || runs < 1 || runs > RUNS || !read_variants(count, argv + 5, variants)) {
-        fprintf(stderr, "usage: bench_filter PASSES.exr P THREADS RUNS NAME=TOLERANCE[:LIMIT] ...\n");
-        return 2;
-    }
-    if (passes_file_read(argv[1], &gbuffer, &err)) {
-        fprintf(stderr, "bench_filter: %s\n", err.text);
-        return 3;
-    }
-    struct filter_options options = filter_options_default();
-    options.phong = strtof(argv[2], NULL);
-    options.phong_override = true;
-    options.threads = atoi(argv[3]);
-    for (int run = 0; run < runs; run++)
-        for (int i = 0; i < count; i++) {
-            image_free(&variants[i].glossy);
-            options.tolerance = variants[i].tolerance;
-            double start = seconds();
-            if (filter_glossy(&gbuffer, &options, &variants[i].glossy, NULL, &err)) {
-                fprintf(stderr, "bench_filter: %s\n", err.text);
-                return 3;
-            }
-            variants[i].times[run] = seconds() - start;
-        }
+    const int count = argc - 3, runs = argc > 3 ? atoi(argv[2]) : 0;
     bool right = true;
+    if (count < 1 || count > VARIANTS || runs < 1 || runs > RUNS) {
+        fprintf(stderr, "usage: bench_filter PASSES.exr RUNS \"LIMIT OPTIONS\" ...\n");
+        return RESULT_USAGE;
+    }
+    enum result result = passes_file_read(argv[1], &gbuffer, &err);
+    for (int i = 0; i < count && !result; i++)
+        result = read_variant(argv[3 + i], argv[1], &variants[i], &err);
+    if (!result)
+        result = run(&gbuffer, variants, count, runs, &err);
+    if (result)
+        cli_complain("bench_filter", &err);
     double reference = median(variants[0].times, runs);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count && !result; i++) {
         double time = median(variants[i].times, runs);
+        if (!variants[i].glossy.pixels)
+            continue;
         printf("| %s | %.3f | %.2f |", variants[i].name, time, reference / time);
         right = compare(&variants[i], &variants[0].glossy) && right;
     }
     for (int i = 0; i < count; i++)
         image_free(&variants[i].glossy);
     gbuffer_free(&gbuffer);
-    return right ? 0 : 1;
+    return result ? (int)result : !right;
 }

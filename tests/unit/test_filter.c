@@ -13,7 +13,6 @@ static const struct scene plain_scene = {.scale = 1, .ball = true};
 static const struct scene bounded_scene = {.scale = 1, .bounded = true};
 
 static enum filter_mode tested_mode = FILTER_MODE_PAPER;
-static double tested_tolerance;
 
 static int setup_best(void **state)
 {
@@ -22,19 +21,10 @@ static int setup_best(void **state)
     return 0;
 }
 
-static int setup_fast(void **state)
-{
-    (void)state;
-    tested_mode = FILTER_MODE_BEST;
-    tested_tolerance = FILTER_TOLERANCE_FAST;
-    return 0;
-}
-
 static int teardown_best(void **state)
 {
     (void)state;
     tested_mode = FILTER_MODE_PAPER;
-    tested_tolerance = 0;
     return 0;
 }
 
@@ -42,7 +32,6 @@ static struct filter_options test_options(void)
 {
     struct filter_options options = filter_options_default();
     options.mode = tested_mode;
-    options.tolerance = tested_tolerance;
     options.radius_step = 1;
     options.threads = 1;
     return options;
@@ -339,69 +328,6 @@ static void filter_best__what_a_near_wall_hides__is_not_seen(void **state)
     assert_true(image_row(&all, 0, 32)[36] < 0.95f);
     image_free(&seen);
     image_free(&all);
-    gbuffer_free(&gbuffer);
-}
-
-/* --- the fast filter --- */
-
-/* Of the channels at glossy pixels: root of the mean square, and the largest. */
-static void difference_of(const struct gbuffer *gbuffer, const struct image *a, const struct image *b, double *rmse,
-                          double *worst)
-{
-    double sum = 0;
-    int count = 0;
-    *worst = 0;
-    for (int y = 0; y < a->height; y++)
-        for (int x = 0; x < a->width; x++)
-            for (int i = 0; i < 3 && scene_glossy(gbuffer, x, y); i++, count++) {
-                double difference = fabs((double)image_row(a, i, y)[x] - (double)image_row(b, i, y)[x]);
-                sum += difference * difference;
-                *worst = fmax(*worst, difference);
-            }
-    assert_true(count > 0);
-    *rmse = sqrt(sum / count);
-}
-
-static void filter_fast__wide_and_narrow_lobes__are_near_the_exact_sums(void **state)
-{
-    (void)state;
-    static const float exponents[] = {10, 300};
-    for (int mode = 0; mode < 2; mode++)
-        for (int i = 0; i < 2; i++) {
-            struct filter_options options = test_options();
-            struct gbuffer gbuffer;
-            struct image exact, fast;
-            double rmse, worst;
-            options.mode = mode ? FILTER_MODE_BEST : FILTER_MODE_PAPER;
-            scene_draw(&plain_scene, 131, 97, exponents[i], &gbuffer);
-            filter_run(&gbuffer, &options, &exact, NULL);
-            options.tolerance = FILTER_TOLERANCE_FINE;
-            filter_run(&gbuffer, &options, &fast, NULL);
-            difference_of(&gbuffer, &exact, &fast, &rmse, &worst);
-            if (!(rmse < 0.002 && worst < 0.1))
-                fail_msg("p = %g, mode %d: RMSE %g, worst %g", (double)exponents[i], mode, rmse, worst);
-            image_free(&exact);
-            image_free(&fast);
-            gbuffer_free(&gbuffer);
-        }
-}
-
-static void filter_fast__least_tolerance__is_nearly_the_exact_sum(void **state)
-{
-    (void)state;
-    struct filter_options options = test_options();
-    struct gbuffer gbuffer;
-    struct image exact, fast;
-    double rmse, worst;
-    options.mode = FILTER_MODE_BEST;
-    scene_draw(&plain_scene, 83, 61, 100, &gbuffer);
-    filter_run(&gbuffer, &options, &exact, NULL);
-    options.tolerance = 1e-12;
-    filter_run(&gbuffer, &options, &fast, NULL);
-    difference_of(&gbuffer, &exact, &fast, &rmse, &worst);
-    assert_true(worst < 1e-4); /* the reach of the sums is measured at every 16th pixel only */
-    image_free(&exact);
-    image_free(&fast);
     gbuffer_free(&gbuffer);
 }
 
@@ -891,9 +817,6 @@ static void filter__signal__stops_it(void **state)
     gbuffer_free(&gbuffer);
 }
 
-/* A test of the paper's filter that holds for the fast one, too. */
-#define FAST_TOO(test) {#test " (fast)", test, setup_fast, teardown_best, NULL}
-
 /* A test of the paper's filter that holds for the best one, too. */
 #define BEST_TOO(test) {#test " (best)", test, setup_best, teardown_best, NULL}
 
@@ -915,15 +838,6 @@ int main(void)
         cmocka_unit_test(filter_best__wall_across_the_lobe__is_seen_in_full),
         cmocka_unit_test(filter_best__density__weighs_near_things_by_their_solid_angle),
         cmocka_unit_test(filter_best__what_a_near_wall_hides__is_not_seen),
-        cmocka_unit_test(filter_fast__wide_and_narrow_lobes__are_near_the_exact_sums),
-        cmocka_unit_test(filter_fast__least_tolerance__is_nearly_the_exact_sum),
-        FAST_TOO(filter__constant_radiance__stays_constant_with_every_option),
-        FAST_TOO(filter__instruction_sets_and_threads__give_the_same_bits),
-        FAST_TOO(filter__unusable_pixels__do_not_spread),
-        FAST_TOO(filter__mirror__is_the_specular_plane),
-        FAST_TOO(filter__exponent_zero_or_nan_in_the_passes__is_not_glossy),
-        FAST_TOO(filter__one_pixel_and_hdr_values__are_kept),
-        FAST_TOO(filter__edge_pixels__take_the_nearest_ring),
         BEST_TOO(filter__homogeneous_scale_of_the_endpoint__does_not_matter),
         BEST_TOO(filter__constant_radiance__stays_constant_with_every_option),
         BEST_TOO(filter__mirrored_gbuffer__gives_the_mirrored_picture),
