@@ -654,7 +654,8 @@ static enum result take_states(struct writer *writer, int directive, struct erro
 {
     const struct scene_file *file = writer->file;
     int macro = directive + 1, position = 0;
-    if (!is_directive(file, directive, "macro") || !has_fact(file, macro, NAME_SURFACE_MACRO) || !is_call(file, macro))
+    if (!is_directive(file, directive, "macro") || !has_fact(file, macro, NAME_SURFACE_MACRO) ||
+        !has_parentheses(file, macro))
         return RESULT_OK;
     int last = file->list.tokens[macro + 1].match;
     enum result result = insert_before(writer, last, "", err);

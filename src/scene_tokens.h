@@ -281,10 +281,16 @@ static inline int directive_end(const struct scene_file *file, int token, int en
     return after < end ? after : end;
 }
 
+/* Whether parentheses follow the name at `token`, and are closed. */
+static inline bool has_parentheses(const struct scene_file *file, int token)
+{
+    return is_mark(file, token + 1, "(") && file->list.tokens[token + 1].match > 0;
+}
+
 /* Whether the name at `token` is called as a macro is. */
 static inline bool is_call(const struct scene_file *file, int token)
 {
-    return is_mark(file, token + 1, "(") && file->list.tokens[token + 1].match > 0 && !is_directive(file, token - 1, "macro");
+    return has_parentheses(file, token) && !is_directive(file, token - 1, "macro");
 }
 
 /* The comma after the argument of a macro that begins at `token`, or `last`, the parenthesis at their end. */

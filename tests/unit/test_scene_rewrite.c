@@ -459,7 +459,7 @@ static void base__transparent_objects_of_the_top_level__placed_by_povray(void **
          "#declare povgloss_object = sphere { povgloss_enter() 0, 1 " COVER("pigment { rgbt 1 }", "object")
          "povgloss_count(povgloss_own) } povgloss_place(0, 1) "},
         {BASE2, "#if (1) object { A texture { pigment { rgbt 1 } } } #end",
-         "#if (1) #declare povgloss_object = object { povgloss_enter() povgloss_add(<0, 0, 1>) A " TEXTURE
+         "#if (1) #declare povgloss_object = object { povgloss_enter() povgloss_add(<0, 0, 1, 0>) A " TEXTURE
          COVER("pigment { rgbt 1 }", "texture") "} } povgloss_place(0, 1) #end"},
         {BASE2, "union { sphere { 0, 1 pigment { rgbt 1 } } rotate y }",
          "povgloss_leave_copy() union { povgloss_nothing() #declare povgloss_object = sphere { povgloss_enter() 0, 1 "
