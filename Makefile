@@ -25,9 +25,9 @@ CFLAGS += -fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-point
 LDFLAGS += -fsanitize=$(SANITIZE)
 endif
 
-PACKAGES := gcc binutils make libc6-dev pkg-config povray povray-includes povray-examples libopenexr-dev libpng-dev \
+PACKAGES := gcc g++ binutils make libc6-dev pkg-config povray povray-includes povray-examples libopenexr-dev libpng-dev \
             libcmocka-dev libsdl2-dev xvfb xdotool imagemagick openimageio-tools openexr mandoc dpkg-dev python3-venv perl \
-            coreutils findutils bubblewrap
+            coreutils findutils bubblewrap valgrind
 
 PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(filter-out src/main_view.c,$(wildcard src/main_*.c)))
 # The window of glossfilter --view, where SDL2 is.

@@ -19,6 +19,8 @@ if [ "${1:-}" != inside ]; then
     debootstrap --variant=minbase "$suite" "$fresh" "$mirror" > "$fresh.log" 2>&1 || { tail "$fresh.log"; exit 1; }
     rm "$fresh.log"
     cp /etc/resolv.conf "$fresh/etc/"
+    # Where a proxy stands before the package index, pip is told its certificate.
+    cp "${PIP_CERT:-/dev/null}" "$fresh/root/pip.crt"
     mkdir "$fresh/root/povgloss"
     git archive HEAD | tar -x -C "$fresh/root/povgloss"
     FRESH=$fresh CHECK=${CHECK:-yes} unshare --mount --pid --fork --kill-child "$0" inside
@@ -26,9 +28,10 @@ if [ "${1:-}" != inside ]; then
 fi
 
 mount -t proc proc "$fresh/proc"
-mount --bind /dev "$fresh/dev"
+mount --rbind /dev "$fresh/dev"
 mount -t tmpfs tmpfs "$fresh/tmp"
 env -i HOME=/root PATH=/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin CHECK="$CHECK" JOBS="${JOBS:-}" \
+    ${PIP_CERT:+PIP_CERT=/root/pip.crt} \
     chroot "$fresh" bash -eu <<'TYPED'
 cd /root/povgloss
 files() { find / -xdev ! -path '/root/povgloss/*' ! -path '/tmp/*' ! -path '/var/cache/*' -printf '%p %y\n' | sort; }
