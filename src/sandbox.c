@@ -3,8 +3,11 @@
 
 #include "povray.h"
 
+#include <dirent.h>
 #include <errno.h>
+#include <signal.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
@@ -118,6 +121,25 @@ enum result sandbox_begin(const char *work_folder, const struct text_list *folde
     return result ? result : try_it(work_folder, arguments, err);
 }
 
+/* A bwrap that is killed before it has set up its inner process leaves that waiting for ever. */
+static void kill_orphans(void)
+{
+    DIR *folder = opendir("/proc");
+    for (const struct dirent *entry; folder && (entry = readdir(folder));) {
+        char path[300], name[32];
+        int pid, parent;
+        snprintf(path, sizeof path, "/proc/%s/stat", entry->d_name);
+        FILE *stream = entry->d_name[0] >= '1' && entry->d_name[0] <= '9' ? fopen(path, "r") : NULL;
+        if (!stream)
+            continue;
+        if (fscanf(stream, "%d (%31[^)]) %*c %d", &pid, name, &parent) == 3 && parent == getpid() && !strcmp(name, "bwrap"))
+            kill(pid, SIGKILL);
+        fclose(stream);
+    }
+    if (folder)
+        closedir(folder);
+}
+
 void sandbox_end(void)
 {
     for (int tenths = 0; tenths < 50; tenths++) {
@@ -127,6 +149,7 @@ void sandbox_end(void)
         while (ended > 0);
         if (ended < 0)
             return;
+        kill_orphans();
         nanosleep(&(struct timespec){.tv_nsec = 100000000}, NULL);
     }
 }

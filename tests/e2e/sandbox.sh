@@ -155,4 +155,17 @@ stops() {
     expect_nothing_left
 }
 check "sandbox__signal__nothing_left" stops
+
+# Signals while bwrap starts.
+stops_early() {
+    local delay
+    for delay in 0.02 0.04 0.06 0.08 0.1 0.12 0.15 0.2; do
+        "${povgloss[@]}" --povray tool/povray --sandbox -o picture.png 2> err &
+        sleep $delay
+        kill -TERM $!
+        wait $!
+        expect_nothing_left || return
+    done
+}
+check "sandbox__signal_while_it_starts__nothing_left" stops_early
 end_of_tests
