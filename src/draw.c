@@ -37,12 +37,6 @@ static void show_progress(void *context, double done)
     fflush(stderr);
 }
 
-static void no_progress(void *context, double done)
-{
-    (void)context;
-    (void)done;
-}
-
 enum result draw_check_place(const char *path, struct error *err)
 {
     struct output_file file;
@@ -77,7 +71,7 @@ enum result draw_passes(struct command *command, struct passes **passes, int num
     struct progress progress = {.terminal = isatty(STDERR_FILENO), .frame = frame, .shown = -1};
     struct error note;
     enum result result = RESULT_OK;
-    command->passes.progress = command->filter.quiet ? no_progress : show_progress;
+    command->passes.progress = command->filter.quiet ? NULL : show_progress;
     command->passes.progress_context = &progress;
     if (!*passes) {
         result = passes_open(&command->passes, passes, &note, err);

@@ -439,12 +439,6 @@ static enum result prepare_environment(struct passes *passes, struct error *err)
     return result ? result : make_environment(passes, err);
 }
 
-static void no_progress(void *context, double done)
-{
-    (void)context;
-    (void)done;
-}
-
 static void add_timings(const struct passes *passes, const struct povray_job *jobs, int count)
 {
     for (int i = 0; i < count; i++)
@@ -468,7 +462,7 @@ static enum result run_discovery(struct passes *passes, const char *name, const 
     if (!result)
         result = text_printf(&path, err, "%s/" SCENE_DISCOVERY_LOG, folder);
     if (!result)
-        result = povray_run(&job, 1, 1, passes->environment, no_progress, NULL, &failed, err);
+        result = povray_run(&job, 1, 1, passes->environment, NULL, NULL, &failed, err);
     if (failed >= 0 && !input_file_read(path, &log, &ignored) && log.size >= 4 &&
         !memcmp(log.data + log.size - 4, "end\n", 4))
         result = RESULT_OK;
@@ -771,7 +765,7 @@ static enum result run_view(const struct passes *passes, int frame, int width, i
     struct povray_job job = {
         .name = pass_table[PASS_PROBE].name, .folder = folder, .arguments = arguments.texts};
     if (!result)
-        result = povray_run(&job, 1, 1, passes->environment, no_progress, NULL, &failed, err);
+        result = povray_run(&job, 1, 1, passes->environment, NULL, NULL, &failed, err);
     if (failed >= 0)
         result = report_failure(passes, &job, err);
     add_timings(passes, &job, 1);

@@ -80,6 +80,8 @@ static struct povray_job *next_job(struct povray_job *jobs, int count)
 
 static void report(const struct povray_job *jobs, int count, povray_progress *progress, void *context)
 {
+    if (!progress)
+        return;
     double done = 0;
     for (int i = 0; i < count; i++)
         done += jobs[i].finished ? 1 : 0.99 * jobs[i].done;

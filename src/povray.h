@@ -28,7 +28,7 @@ struct povray_job {
     bool started, finished;
 };
 
-/* Is told from time to time how much of all the work is done, 0 to 1. */
+/* Is told from time to time how much of all the work is done, 0 to 1; NULL: nobody is. */
 typedef void povray_progress(void *context, double done);
 
 /* Runs all jobs, `at_once` of them at a time, in their order as far as none waits, with the environment given. When one

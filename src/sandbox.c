@@ -58,12 +58,6 @@ static enum result add_real(struct text_list *arguments, const char *option, con
     return result;
 }
 
-static void no_progress(void *context, double done)
-{
-    (void)context;
-    (void)done;
-}
-
 static enum result try_it(const char *work_folder, struct text_list *arguments, struct error *err)
 {
     struct text_list trial = {0};
@@ -75,7 +69,7 @@ static enum result try_it(const char *work_folder, struct text_list *arguments, 
         result = text_list_add(&trial, err, "true");
     struct povray_job job = {.name = "sandbox", .folder = work_folder, .arguments = trial.texts, .timeout_s = 20};
     if (!result)
-        result = povray_run(&job, 1, 1, environ, no_progress, NULL, &failed, err);
+        result = povray_run(&job, 1, 1, environ, NULL, NULL, &failed, err);
     if (result == RESULT_POVRAY && failed >= 0) {
         const char *said = job.messages.data ? job.messages.data : "";
         result = error_set(err, RESULT_POVRAY,
