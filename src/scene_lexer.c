@@ -265,7 +265,7 @@ static enum result match_brackets(const char *name, const struct buffer *source,
         if (twin[i] && list->tokens[i].match < 0)
             list->tokens[i].match = list->tokens[twin[i]].match;
     free(twin);
-    /* What isn't closed isn't around anything, and in branches a block may be closed before what it seems to be around. */
+    /* What isn't closed isn't around anything; in branches a block may be closed before what it seems to be around. */
     for (int i = 0; !result && i < list->count; i++) {
         int *parent = &list->tokens[i].parent;
         while (*parent >= 0 && list->tokens[*parent].match < i)
