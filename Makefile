@@ -216,6 +216,16 @@ faults: $(PROGRAMS) $(PRELOAD) $(TOOLS) ## every call that can fail, failing in 
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools FAULTS=all MOMENTS=100 prove --exec '' --timer tests/e2e/faults.sh \
 	    tests/e2e/signals.sh
 
+# Programs whose tests run on several threads; of those that have many others, the tests called after that.
+THREADED_TESTS := filter filter_properties control_variate exr_io gloss
+.PHONY: threads
+threads: ## the tests of what runs on several threads, under ThreadSanitizer
+	$(MAKE) SANITIZE=thread run-threads
+
+.PHONY: run-threads
+run-threads: $(THREADED_TESTS:%=$(BUILD)/tests/test_%)
+	CMOCKA_MESSAGE_OUTPUT=TAP TESTS='*threads*' SEEDS=1 prove --exec '' --timer $^
+
 # A corpus grows in build/fuzz; an input that fails is left beside it, and becomes a seed when its cause is gone.
 .PHONY: fuzz
 fuzz: ## fuzz each reader for FUZZ_SECONDS (60) with clang's libFuzzer and sanitizers

@@ -33,7 +33,8 @@ static struct tap tap_read(const struct gbuffer *gbuffer, const struct image *gl
     for (int i = 0; i < 4; i++)
         sum += tap.b[i] = image_row(&gbuffer->endpoint, i, y)[x];
     bool in_use = isnan(phong) || tap.phong == phong;
-    if (!isfinite(sum) || tap.rays < 0 || !in_use || !gbuffer_is_glossy(gbuffer, x, y) || tap.phong >= mirror_phong)
+    bool is_count = tap.rays == 0 || tap.rays >= 1;
+    if (!isfinite(sum) || !is_count || !in_use || !gbuffer_is_glossy(gbuffer, x, y) || tap.phong >= mirror_phong)
         return (struct tap){0};
     return tap;
 }
@@ -107,7 +108,8 @@ static void correct(const struct field *field, int x, int y)
     for (int i = 0; i < 3 && sums[3] > 0; i++) {
         float *value = &image_row(field->glossy, i, y)[x];
         float corrected = (float)((double)*value + sums[i] / sums[3]);
-        *value = *value >= 0 ? fmaxf(corrected, 0) : corrected;
+        if (isfinite(corrected)) /* else it is beyond the floats */
+            *value = *value >= 0 ? fmaxf(corrected, 0) : corrected;
     }
 }
 

@@ -36,7 +36,7 @@ static void ignore_message(exr_const_context_t context, exr_result_t code, const
     (void)context, (void)code, (void)message;
 }
 
-/* What OpenEXRCore couldn't have: its result codes don't always tell. */
+/* What OpenEXRCore couldn't have. Its result codes don't always tell, and EXR_ERR_OUT_OF_MEMORY may be damage. */
 static atomic_size_t bytes_lacking;
 
 static void *allocate(size_t size)
@@ -56,11 +56,6 @@ static exr_context_initializer_t begin_context(void *user_data)
     initializer.user_data = user_data;
     bytes_lacking = 0;
     return initializer;
-}
-
-static bool is_memory(exr_result_t code)
-{
-    return code == EXR_ERR_OUT_OF_MEMORY || bytes_lacking > 0;
 }
 
 static int64_t memory_read(exr_const_context_t context, void *user_data, void *buffer, uint64_t size, uint64_t offset,
@@ -108,7 +103,7 @@ struct reader {
 
 static enum result damaged(const char *name, exr_result_t code, struct error *err)
 {
-    if (is_memory(code))
+    if (bytes_lacking > 0)
         return error_memory(err, (double)bytes_lacking);
     return error_set(err, RESULT_DATA, "%s: the OpenEXR file is damaged or cut short (%s)", name,
                      exr_get_default_error_message(code));
@@ -533,7 +528,7 @@ enum result exr_read(const char *path, struct exr_contents *contents, struct err
     initializer.max_tile_width = initializer.max_tile_height = IMAGE_MAX_SIDE;
     initializer.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     exr_result_t code = exr_start_read(&reader.context, reader.name, &initializer);
-    if (is_memory(code)) {
+    if (bytes_lacking > 0) {
         result = error_memory(err, (double)bytes_lacking);
         goto out;
     }
@@ -759,7 +754,7 @@ static enum result encode(const char *name, struct memory_file *file, const stru
     if (!code)
         code = finished;
     /* OpenEXRCore calls every failure of zlib a corrupt chunk: compressing fails only for lack of memory. */
-    if (code && !result && (is_memory(code) || code == EXR_ERR_CORRUPT_CHUNK))
+    if (code && !result && (bytes_lacking > 0 || code == EXR_ERR_OUT_OF_MEMORY || code == EXR_ERR_CORRUPT_CHUNK))
         result = error_memory(err, (double)bytes_lacking);
     else if (code && !result)
         result = error_set(err, RESULT_DATA, "%s: the OpenEXR file cannot be made (%s)", name,

@@ -49,7 +49,7 @@ static bool is_plain_mirror(const struct scene_file *file, int token)
     if (brace <= 0 || !is_word(file, brace - 1, "finish") || file->list.tokens[brace].match < 0)
         return !zero;
     bool gloss = false, conditional = false;
-    for (int i = brace; i < file->list.tokens[brace].match; i++) {
+    for (int i = brace + 1; i < file->list.tokens[brace].match; i = next_item(file, i)) {
         gloss |= in_list(file, i, gloss_macros);
         conditional |= file->list.tokens[i].kind == TOKEN_DIRECTIVE;
     }
@@ -292,6 +292,54 @@ static enum result name_words(struct scene *scene, struct scene_file *file, stru
     return result;
 }
 
+static const struct {
+    const char *keyword;
+    unsigned block;
+} blocks[] = {
+    {"function", SCENE_BLOCK_PATTERN},
+    {"pigment", SCENE_BLOCK_PATTERN},
+    {"pigment_map", SCENE_BLOCK_PATTERN},
+    {"pigment_pattern", SCENE_BLOCK_PATTERN},
+    {"normal", SCENE_BLOCK_PATTERN},
+    {"normal_map", SCENE_BLOCK_PATTERN},
+    {"slope_map", SCENE_BLOCK_PATTERN},
+    {"density", SCENE_BLOCK_PATTERN},
+    {"density_map", SCENE_BLOCK_PATTERN},
+    {"sky_sphere", SCENE_BLOCK_PATTERN},
+    {"camera", SCENE_BLOCK_PATTERN},
+    {"finish", SCENE_BLOCK_PATTERN},
+    {"texture", SCENE_BLOCK_SURFACE},
+    {"texture_map", SCENE_BLOCK_SURFACE},
+    {"material", SCENE_BLOCK_SURFACE | SCENE_BLOCK_MATERIAL},
+    {"light_group", SCENE_BLOCK_LIGHT_GROUP},
+    {"mesh2", SCENE_BLOCK_MESH2},
+};
+
+/* What the brace opens. */
+static unsigned opened_block(const struct scene_file *file, int brace)
+{
+    unsigned block = is_mark(file, brace - 1, "]") ? SCENE_BLOCK_ARRAY : 0;
+    int keyword = brace > 0 ? block_keyword(file, brace) : -1;
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
+        if (is_word(file, keyword, blocks[i].keyword))
+            block |= blocks[i].block;
+    return block;
+}
+
+/* A brace comes before what is in it. */
+static void note_blocks(struct scene_file *file)
+{
+    unsigned around = 0;
+    for (int token = 0, brace = -1; token < file->list.count; token++) {
+        struct token *tokens = file->list.tokens;
+        if (tokens[token].parent != brace) {
+            brace = tokens[token].parent;
+            around = brace < 0 ? 0 : tokens[brace].around | opened_block(file, brace);
+        }
+        tokens[token].around = around;
+    }
+}
+
 /* Takes `path` over. */
 static enum result load_file(struct scene *scene, char *path, const char *const *directories, int directory_count,
                              struct error *err)
@@ -317,6 +365,8 @@ static enum result load_file(struct scene *scene, char *path, const char *const 
         result = scene_lex(path, &files[index].source, &files[index].list, err);
     if (!result)
         result = name_words(scene, &files[index], err);
+    if (!result)
+        note_blocks(&files[index]);
     for (int token = 0; !result && token < scene->files[index].list.count; token++) {
         result = note_token(scene, index, token, err);
         if (!result && is_directive(&scene->files[index], token, "include"))

@@ -28,6 +28,16 @@ struct scene_file {
     int include_count;
 };
 
+/* What blocks around a token mean to it: a set, as struct token's `around`. */
+enum scene_block {
+    SCENE_BLOCK_PATTERN = 1, /* a pigment in it is a pattern or a value, not what an object looks like */
+    SCENE_BLOCK_SURFACE = 2, /* what describes a surface is a part of it */
+    SCENE_BLOCK_MATERIAL = 4,
+    SCENE_BLOCK_LIGHT_GROUP = 8,
+    SCENE_BLOCK_MESH2 = 16,
+    SCENE_BLOCK_ARRAY = 32, /* the braces that fill one, where POV-Ray takes no directive and no macro */
+};
+
 /* What the picture of a glossy scene lacks. */
 enum scene_limit {
     SCENE_LIMIT_EXPONENT,

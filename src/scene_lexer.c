@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_CONDITIONALS = 256 };
+/* POV-Ray itself counts 200 nested braces, warns and reads on; the rewriter's recursion has a stack's depth. */
+enum { MAX_CONDITIONALS = 256, MAX_BRACKETS = 1000 };
 
 static bool is_word_start(unsigned char c)
 {
@@ -221,7 +222,8 @@ static enum result follow_branches(const struct buffer *source, const struct tok
 }
 
 /* Pairs brackets in one walk. A closing bracket that doesn't fit the innermost open one stays unpaired. */
-static enum result match_brackets(const struct buffer *source, struct token_list *list, struct error *err)
+static enum result match_brackets(const char *name, const struct buffer *source, struct token_list *list,
+                                  struct error *err)
 {
     struct buffer open = {0};
     struct branches *conditionals = calloc(MAX_CONDITIONALS, sizeof *conditionals);
@@ -247,7 +249,11 @@ static enum result match_brackets(const struct buffer *source, struct token_list
         top = stack_top(&open);
         token->parent = top >= 0 && text[list->tokens[top].begin] != '{' ? list->tokens[top].parent : top;
         if (!result && (c == '{' || c == '('))
-            result = buffer_add(&open, &i, sizeof i, err);
+            result = stack_count(&open) < MAX_BRACKETS
+                         ? buffer_add(&open, &i, sizeof i, err)
+                         : error_set(err, RESULT_DATA,
+                                     "%s:%d: more than %d brackets are open here: declare inner parts by names", name,
+                                     token->line, MAX_BRACKETS);
     }
     for (int i = 0; conditionals && i < MAX_CONDITIONALS; i++) {
         buffer_free(&conditionals[i].before);
@@ -259,11 +265,11 @@ static enum result match_brackets(const struct buffer *source, struct token_list
         if (twin[i] && list->tokens[i].match < 0)
             list->tokens[i].match = list->tokens[twin[i]].match;
     free(twin);
-    /* What isn't closed isn't around anything. */
+    /* What isn't closed isn't around anything; in branches a block may be closed before what it seems to be around. */
     for (int i = 0; !result && i < list->count; i++) {
-        int parent = list->tokens[i].parent;
-        if (parent >= 0 && list->tokens[parent].match < 0)
-            list->tokens[i].parent = list->tokens[parent].parent;
+        int *parent = &list->tokens[i].parent;
+        while (*parent >= 0 && list->tokens[*parent].match < i)
+            *parent = list->tokens[*parent].parent;
     }
     return result;
 }
@@ -287,7 +293,7 @@ enum result scene_lex(const char *name, const struct buffer *source, struct toke
     } while (token.kind != TOKEN_END);
     list->tokens = (struct token *)(void *)tokens.data;
     list->count = (int)(tokens.size / sizeof token);
-    return match_brackets(source, list, err);
+    return match_brackets(name, source, list, err);
 }
 
 void token_list_free(struct token_list *list)

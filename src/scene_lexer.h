@@ -29,6 +29,7 @@ struct token {
     int match;                /* of { } ( ): the token that closes or opens it; -1: none */
     int parent;               /* the innermost paired { around the token; -1: none */
     struct scene_name *name;  /* of a word, once its file belongs to a scene; else NULL */
+    unsigned around;          /* what the paired { around the token open, once its file belongs to a scene: scene.h */
 };
 
 struct token_list {
@@ -37,7 +38,8 @@ struct token_list {
 };
 
 /* Cuts the source into tokens; the caller frees them. An unclosed comment or string is RESULT_DATA, with `name` and the
- * line where it begins. Braces may be unbalanced (macros and conditionals do that): their match is -1. */
+ * line where it begins, and so are more than 1000 open brackets. Braces may be unbalanced (macros and conditionals do
+ * that): their match is -1. */
 MUST_CHECK enum result scene_lex(const char *name, const struct buffer *source, struct token_list *list,
                                  struct error *err);
 void token_list_free(struct token_list *list);

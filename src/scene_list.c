@@ -111,10 +111,10 @@ static void read_finish(const struct scene *scene, const struct scene_file *file
     if (declared && depth < MAX_INHERITANCE)
         read_finish(scene, declared, inner, depth + 1, finish);
     bool glossy = finish->exponent && in_list(finish->exponent_file, finish->exponent, gloss_macros);
-    for (int token = brace + 1; token < file->list.tokens[brace].match; token++) {
+    for (int token = brace + 1; token < file->list.tokens[brace].match; token = next_item(file, token)) {
         bool call = in_list(file, token, gloss_macros) && is_mark(file, token + 1, "(") &&
                     file->list.tokens[token + 1].match > 0;
-        if (is_word(file, token, "reflection") && file->list.tokens[token].parent == brace) {
+        if (is_word(file, token, "reflection")) {
             finish->reflection = token;
             finish->reflection_file = file;
         } else if (call || (!glossy && in_list(file, token, highlight_words))) {

@@ -52,15 +52,6 @@ static const struct rules copy_rules[SCENE_COPY_COUNT] = {
     [SCENE_COPY_DISCOVERY] = {"discovery", STATEMENTS_STAY, .lights = true, .discovery = true},
 };
 
-/* Whether the token lies in the braces that fill an array, where POV-Ray takes no directive and no macro. */
-static bool fills_array(const struct scene_file *file, int token)
-{
-    for (int brace = file->list.tokens[token].parent; brace >= 0; brace = file->list.tokens[brace].parent)
-        if (is_mark(file, brace - 1, "]"))
-            return true;
-    return false;
-}
-
 struct writer {
     const struct scene *scene;
     const struct scene_file *file;
@@ -353,22 +344,6 @@ static const char *const object_words[] = {
     "mesh",          "mesh2",         "object",       "parametric",      "plane",         "poly",     "polygon",
     "prism",         "quadric",       "quartic",      "smooth_triangle", "sor",           "sphere",   "sphere_sweep",
     "superellipsoid", "text",         "torus",        "triangle",        "union",         NULL};
-
-/* A pigment inside one of these is a pattern or a value, not what an object looks like. */
-static const char *const pattern_words[] = {"function", "pigment",  "pigment_map", "pigment_pattern", "normal",
-                                            "normal_map", "slope_map", "density",   "density_map",     "sky_sphere",
-                                            "camera",   "finish",  NULL};
-
-/* What a block that describes a surface may be part of: then it stays with that. */
-static const char *const surface_words[] = {"texture", "material", "texture_map", NULL};
-
-static bool inside_any(const struct scene_file *file, int token, const char *const *keywords)
-{
-    bool found = false;
-    for (; !found && *keywords; keywords++)
-        found = inside(file, token, *keywords);
-    return found;
-}
 
 /* Whether it matters where this block is transparent. */
 static bool tracks(const struct writer *writer, int first, int last)
@@ -759,7 +734,7 @@ static enum result write_interior(struct writer *writer, int token, int last, st
 {
     const struct scene_file *file = writer->file;
     enum result result = RESULT_OK;
-    bool keep = writer->rules->coded && inside(file, token, "material");
+    bool keep = writer->rules->coded && inside(file, token, SCENE_BLOCK_MATERIAL);
     if (keep)
         result = insert_before(writer, token, "#declare povgloss_interior = ", err);
     for (int i = token + 2; !result && i < last; i++) {
@@ -914,14 +889,15 @@ static enum result write_pigment(struct writer *writer, int token, int last, str
     bool of_macro = paints(writer) && writer->in_macro && file->list.tokens[token].parent < 0;
     bool over = paints(writer) && (of_macro || in_texture(file, token) || surface_before(writer, token) >= 0 ||
                                    sibling_before(file, token, "finish") >= 0);
-    if (paints(writer) && (is_argument(file, token) || fills_array(file, token)))
+    if (paints(writer) && (is_argument(file, token) || inside(file, token, SCENE_BLOCK_ARRAY)))
         return copy_to(writer, file->list.tokens[last].end, err);
     enum result result = of_macro ? insert_before(writer, token, "#if (povgloss_value > 0)", err) : RESULT_OK;
     if (!result && of_macro)
         result = add_tokens(writer, token, last, err);
     if (!result && of_macro)
         result = buffer_add_text(&writer->out, " #else ", err);
-    if (!result && tracks(writer, token + 2, last) && !fills_array(file, token) && !in_triangle(file, token))
+    if (!result && tracks(writer, token + 2, last) && !inside(file, token, SCENE_BLOCK_ARRAY) &&
+        !in_triangle(file, token))
         result = write_cover(writer, token, last, err);
     else if (!result)
         result = replace_block(writer, token, last, over ? "povgloss_repaint() " : "pigment { povgloss_pigment }", err);
@@ -1022,7 +998,7 @@ static enum result write_coded_value(struct writer *writer, int token, int last,
     const struct scene_file *file = writer->file;
     bool texture = is_word(file, token, "texture"), material = is_word(file, token, "material");
     bool clear = name >= 0 ? has_fact(file, name, NAME_CLEAR) : tracks(writer, token + 2, last);
-    if (!clear || fills_array(file, token) || (!texture && !material))
+    if (!clear || inside(file, token, SCENE_BLOCK_ARRAY) || (!texture && !material))
         return copy_to(writer, file->list.tokens[last].end, err);
     enum result result = texture ? write_texture(writer, token, last, is_layer(file, token), err)
                                  : write_coded_material(writer, token, last, err);
@@ -1150,7 +1126,7 @@ static enum result write_faces(struct writer *writer, int token, int last, struc
     const struct scene_file *file = writer->file;
     int parent = file->list.tokens[token].parent;
     int face = value_before(file, skip_directives(file, token + 2, last), last);
-    bool textured = sibling_before(file, token, "texture_list") >= 0, unknown = !inside(file, token, "mesh2");
+    bool textured = sibling_before(file, token, "texture_list") >= 0, unknown = !inside(file, token, SCENE_BLOCK_MESH2);
     for (int i = token; !unknown && i > parent; i--)
         unknown = is_directive(file, i, "include");
     face = skip_directives(file, face + is_mark(file, face, ","), last);
@@ -1203,8 +1179,8 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         return write_statement(writer, token, last, err);
     if (is_word(file, token, "camera") || is_word(file, token, "function"))
         return copy_to(writer, file->list.tokens[last].end, err);
-    if (!rules->lights && is_word(file, token, "light_source") && !inside(file, token, "light_group"))
-        return write_light(writer, token, last, value || fills_array(file, token), err);
+    if (!rules->lights && is_word(file, token, "light_source") && !inside(file, token, SCENE_BLOCK_LIGHT_GROUP))
+        return write_light(writer, token, last, value || inside(file, token, SCENE_BLOCK_ARRAY), err);
     if (rules->places && last >= writer->end && last == writer->object_end && in_list(file, token, object_words)) {
         *next = 0;
         return write_object(writer, token, last, -1, err);
@@ -1217,7 +1193,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     placed |= !value && splits(writer, file->list.tokens[token].parent);
     if (rules->places && (named || placed) && in_list(file, token, object_words))
         return write_object(writer, token, last, named ? writer->value_name : -1, err);
-    bool filling = fills_array(file, token), pattern = inside_any(file, token, pattern_words);
+    bool filling = inside(file, token, SCENE_BLOCK_ARRAY), pattern = inside(file, token, SCENE_BLOCK_PATTERN);
     bool pigment = is_word(file, token, "pigment") && !pattern;
     if (rules->covers && is_word(file, token, "interior"))
         return write_interior(writer, token, last, err);
@@ -1249,7 +1225,7 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
         !value && !argument && nests_evenly(file, token, last))
         return write_coded_result(writer, token, last, next, err);
     if (rules->coded && in_list(file, token, texture_words))
-        return value || argument || filling || pattern || inside_any(file, token, surface_words)
+        return value || argument || filling || pattern || inside(file, token, SCENE_BLOCK_SURFACE)
                    ? write_coded_value(writer, token, last, value ? writer->value_name : -1, err)
                    : write_coded(writer, token, last, next, err);
     *next = 0;
@@ -1419,7 +1395,7 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
                 result = write_argument(writer, i, &next, err);
             if (!result && !next && writer->rules->marks)
                 result = give_states(writer, i, &next, err);
-            if (!result && !next && writer->rules->marks && !fills_array(file, i))
+            if (!result && !next && writer->rules->marks && !inside(file, i, SCENE_BLOCK_ARRAY))
                 result = write_finish_item(writer, i, &next, err);
         }
     }

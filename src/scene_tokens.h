@@ -52,6 +52,13 @@ static inline bool opens_block(const struct scene_file *file, int token)
     return is_mark(file, token + 1, "{") && file->list.tokens[token + 1].match > 0;
 }
 
+/* The token after this one, or after the block that it opens. */
+static inline int next_item(const struct scene_file *file, int token)
+{
+    bool opens = is_mark(file, token, "{") && file->list.tokens[token].match > token;
+    return (opens ? file->list.tokens[token].match : token) + 1;
+}
+
 static inline bool mentions(const struct scene_file *file, int first, int end, const char *const *words)
 {
     for (int token = first; token < end; token++)
@@ -148,12 +155,9 @@ static inline int block_keyword(const struct scene_file *file, int brace)
     return is_word(file, first, "function") || is_word(file, --first, "function") ? first : token;
 }
 
-static inline bool inside(const struct scene_file *file, int token, const char *keyword)
+static inline bool inside(const struct scene_file *file, int token, enum scene_block block)
 {
-    for (int brace = file->list.tokens[token].parent; brace >= 0; brace = file->list.tokens[brace].parent)
-        if (brace > 0 && is_word(file, block_keyword(file, brace), keyword))
-            return true;
-    return false;
+    return file->list.tokens[token].around & block;
 }
 
 static inline bool is_zero(const struct scene_file *file, int token)

@@ -214,6 +214,12 @@ full_disk() {
 check "render to a full disk" \
     full_disk "${povgloss[@]}" render scenes/glossy.pov "$library" "${size[@]}" --quiet -o /dev/full --format png
 check "passes to a full disk" full_disk "${povgloss[@]}" passes scenes/glossy.pov "$library" "${size[@]}" --quiet -o /dev/full
+check "the depfile to a full disk" full_disk "${povgloss[@]}" render scenes/glossy.pov "$library" "${size[@]}" --quiet \
+    -o picture.png --depfile /dev/full
+check "probe to a full disk" \
+    full_disk "${povgloss[@]}" probe scenes/glossy.pov "$library" "${size[@]}" --quiet --grid 2 -o /dev/full
+check "brute to a full disk" \
+    full_disk "${povgloss[@]}" brute scenes/glossy.pov "$library" "${size[@]}" --quiet -o /dev/full --format png
 check "glossfilter to a full disk" full_disk "$bin/glossfilter" passes.exr -o /dev/full --format exr
 
 # on_small_disk KB FOLDER COMMAND...: with a disk of that size at FOLDER, which is left as it is outside; what is in it

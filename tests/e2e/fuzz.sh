@@ -73,8 +73,28 @@ bad_scene() {
     run bounded "$bin/povgloss" list bad.pov
     expect_status "$1" && expect_message "$2"
 }
-check "scene_of_100000_open_braces__read" bad_scene 0 "no finish reflects" < <(head -c 100000 /dev/zero | tr '\0' '{')
-check "scene_of_100000_open_brackets__read" bad_scene 0 "no finish reflects" < <(head -c 100000 /dev/zero | tr '\0' '(')
+many() { head -c 100000 /dev/zero | tr '\0' "$1"; }
+check "scene_of_100000_open_braces__refused" bad_scene 3 "bad.pov:1: more than 1000 brackets" < <(many '{')
+check "scene_of_100000_open_parentheses__refused" bad_scene 3 "bad.pov:1: more than 1000 brackets" < <(many '(')
 check "scene_of_100000_nested_comments__refused" bad_scene 3 "bad.pov:1" < <(yes '/*' | head -n 100000 | tr -d '\n')
+
+# nested COUNT DEPTH WORD: spheres with blocks in blocks
+nested() {
+    local opened closed i
+    opened=$(printf "$3 {%.0s" $(seq "$2")) closed=$(printf '}%.0s' $(seq "$2"))
+    echo 'camera { location 0 look_at z }'
+    for ((i = 0; i < $1; i++)); do echo "sphere { 0, 1 $opened $closed }"; done
+}
+# Every copy is written before the first pass fails.
+rewrites_nested() {
+    nested 100 900 "$1" > nested.pov
+    run bounded "$bin/povgloss" list nested.pov
+    expect_status 0 || return
+    run bounded "$bin/povgloss" passes nested.pov --gloss all=300 --povray false -o nested.exr
+    expect_status 4 && expect_message "exit status 1"
+}
+for word in finish texture union; do
+    check "scene_of_100_times_900_nested_${word}__in_seconds" rewrites_nested "$word"
+done
 check "scene_that_includes_itself__read" bad_scene 0 "no finish reflects" <<< '#include "bad.pov"'
 end_of_tests

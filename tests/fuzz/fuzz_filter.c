@@ -89,6 +89,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct filter_options options = take_options(&bytes);
     unsigned present = take(&bytes);
     gbuffer.has_eye = present & 1;
+    options.mode = present & 32 ? FILTER_MODE_PAPER : FILTER_MODE_BEST;
     for (int i = 0; i < 3; i++) {
         float value = take_float(&bytes);
         gbuffer.eye[i] = isfinite(value) ? value : 0;
@@ -104,6 +105,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         fill(&bytes, width, height, 3, &gbuffer.reflectance);
     if (present & 16)
         fill(&bytes, width, height, 1, &gbuffer.phong);
+    if (present & 64)
+        fill(&bytes, width, height, 4, &gbuffer.rays);
+    FUZZ_REQUIRE(filter_left_out(&gbuffer) <= (long)width * height);
     enum result result = filter_glossy(&gbuffer, &options, &glossy, &radius, &err);
     FUZZ_REQUIRE(result == RESULT_OK || *err.text);
     if (!result) {

@@ -174,5 +174,6 @@ int main(void)
         cmocka_unit_test(control_variate__darker_rays__not_below_black),
         cmocka_unit_test(control_variate__threads__same_bits),
     };
+    cmocka_set_test_filter(getenv("TESTS"));
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

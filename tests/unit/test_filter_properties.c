@@ -1,5 +1,6 @@
 /* Properties of both filters over random passes: mirrors of planes and spheres, reflected analytically, with holes in
- * them and of several exponents, and plain noise. SEED=N is the first of SEEDS=M; a failure names its own. */
+ * them and of several exponents, and plain noise. SEED=N is the first of SEEDS=M; a failure names its own;
+ * TESTS='*threads*' runs those of that name. */
 #include "gloss_support.h"
 
 #include <float.h>
@@ -610,5 +611,6 @@ int main(void)
         cmocka_unit_test(properties__tile_with_a_border__is_that_part_of_the_picture),
         cmocka_unit_test(properties__threads_and_instruction_sets__give_the_same_bits),
     };
+    cmocka_set_test_filter(getenv("TESTS"));
     return cmocka_run_group_tests_name("filter_properties", tests, NULL, NULL);
 }

@@ -252,10 +252,10 @@ static void lex__unbalanced_brackets__minus_1(void **state)
     assert_brackets("({)}", (int[]){-1, 3, -1, 1}, (int[]){-1, -1, 1, -1}, 4);
 }
 
-static void lex__deep_nesting__every_pair(void **state)
+static void lex__deep_nesting__every_pair_or_refused(void **state)
 {
     (void)state;
-    enum { DEPTH = 100000 };
+    enum { DEPTH = 1000 };
     struct buffer source = {0};
     struct token_list list;
     struct error err;
@@ -265,6 +265,11 @@ static void lex__deep_nesting__every_pair(void **state)
     assert_int_equal(list.count, 2 * DEPTH + 1);
     for (int i = 0; i < 2 * DEPTH; i++)
         assert_int_equal(list.tokens[i].match, 2 * DEPTH - 1 - i);
+    token_list_free(&list);
+    source.size = DEPTH;
+    assert_ok(buffer_add_text(&source, "\n(", &err), err);
+    assert_int_equal(scene_lex("x.pov", &source, &list, &err), RESULT_DATA);
+    assert_non_null(strstr(err.text, "x.pov:2: more than 1000 brackets"));
     token_list_free(&list);
     buffer_free(&source);
 }
@@ -311,7 +316,7 @@ int main(void)
         cmocka_unit_test(lex__unclosed_comment_or_string__file_and_line_where_it_begins),
         cmocka_unit_test(lex__balanced_brackets__matched_with_the_brace_around),
         cmocka_unit_test(lex__unbalanced_brackets__minus_1),
-        cmocka_unit_test(lex__deep_nesting__every_pair),
+        cmocka_unit_test(lex__deep_nesting__every_pair_or_refused),
         cmocka_unit_test(token_is__kind_and_whole_word__both_needed),
     };
     return cmocka_run_group_tests_name("scene_lexer", tests, NULL, NULL);

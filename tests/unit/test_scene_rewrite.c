@@ -630,7 +630,7 @@ static void copy__what_no_scene_has__no_crash(void **state)
 static void copy__deep_nesting__no_crash(void **state)
 {
     (void)state;
-    enum { DEPTH = 2000 };
+    enum { DEPTH = 1000 };
     struct buffer text = {0};
     struct scene scene;
     struct error err;
