@@ -20,6 +20,7 @@ enum pass_id {
     PASS_POSITION_LOW,
     PASS_ENDPOINT,
     PASS_ENDPOINT_LOW,
+    PASS_VIEW, /* directions, few, by which a camera may be known */
     PASS_DIRECTION,
     PASS_PLACE, /* positions, few, that tell the eye's before the passes with a margin are rendered */
     PASS_PLACE_LOW,

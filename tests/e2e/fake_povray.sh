@@ -54,7 +54,7 @@ warns_of_version() {
 }
 check "images of the right kind: the fake is good enough" works <<< 'good'
 check "exit status 1 with a message" fails 4 "Parse Error: Hello" << 'SH'
-echo "File 'pass.pov' line 3: Parse Error: Hello" >&2
+echo "File 'pass.inc' line 3: Parse Error: Hello" >&2
 exit 1
 SH
 check "exit status 1 without a word" fails 4 "exit status 1" <<< 'exit 1'
@@ -86,7 +86,7 @@ good
 SH
 check "an error in POV-Ray's own picture names the user's line" fails 4 "File 'scene.pov' line 2: Parse Error" << 'SH'
 good
-[ "$folder" != own ] || { echo "File 'pass.pov' line 2: Parse Error: Hello" >&2; exit 1; }
+[ "$folder" != own ] || { echo "File 'pass.inc' line 2: Parse Error: Hello" >&2; exit 1; }
 SH
 check "an error in a file from a library folder names the user's file" fails 4 "File 'a.inc' line 2: Parse Error" << 'SH'
 good
@@ -107,7 +107,7 @@ head -c 30000000 /dev/zero | tr '\0' x >&2
 exit 3
 SH
 check "an error message longer than a line should be" fails 4 "Parse Error" << 'SH'
-{ echo "File 'pass.pov' line 3: Parse Error:"; head -c 100000 /dev/zero | tr '\0' x; echo; } >&2
+{ echo "File 'pass.inc' line 3: Parse Error:"; head -c 100000 /dev/zero | tr '\0' x; echo; } >&2
 exit 1
 SH
 check "messages with bytes of no text" fails 4 "exit status 1" << 'SH'
