@@ -562,19 +562,11 @@ static enum result add_coded_sky(const struct pass *pass, struct buffer *text, s
     return result ? result : buffer_add_text(text, "}\n", err);
 }
 
-static bool may_hold_clear(const struct scene *scene)
-{
-    for (int i = 0; i < scene->file_count; i++)
-        if (scene->files[i].clear[scene->files[i].list.count] > 0)
-            return true;
-    return false;
-}
-
 /* Whether a mirror without gloss may show a glossy surface. With --gloss all only transparent surfaces are such
  * mirrors. */
 static bool scene_mirrors_gloss(const struct scene *scene)
 {
-    return scene->plain_mirrors && (!scene->choice->all || may_hold_clear(scene));
+    return scene->plain_mirrors && (!scene->choice->all || scene->may_be_clear);
 }
 
 bool pass_weights_specular(const struct scene *scene)
