@@ -1,12 +1,12 @@
-/* Reads what the passes left: codes from 16-bit PNG, radiance from EXR. See pass_scene.c for how each was coded. */
+/* Reads what the passes left: codes from 16-bit PPM (POV-Ray spends no time on compressing it), radiance from EXR. See pass_scene.c for how each was coded. */
 #include "pass_images.h"
 
 #include "exr_io.h"
 #include "eye.h"
 #include "gamma.h"
 #include "interpolate.h"
-#include "png_io.h"
 #include "position_code.h"
+#include "ppm_io.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 enum result pass_image_path(const struct pass_images *images, enum pass_id id, char **path, struct error *err)
 {
     return text_printf(path, err, "%s/%s/image%s.%s", images->folder, pass_table[id].name, images->number,
-                       pass_table[id].codes ? "png" : "exr");
+                       pass_table[id].codes ? "ppm" : "exr");
 }
 
 /* Of a mixed texture: a glossy surface with a smaller share isn't glossy. */
@@ -32,7 +32,7 @@ static enum result read_codes(const struct pass_images *images, enum pass_id id,
     enum result result = pass_image_path(images, id, &path, err);
     if (result)
         return result;
-    result = png_read(path, image, err);
+    result = ppm_read(path, image, err);
     free(path);
     return result;
 }

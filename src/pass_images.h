@@ -19,7 +19,7 @@ struct pass_images {
     const struct camera *camera; /* of the picture, with its eye; NULL without a margin */
 };
 
-/* The path of a pass's image, which the caller frees: folder/pass/image03.exr, .png for codes. */
+/* The path of a pass's image, which the caller frees: folder/pass/image03.exr, .ppm for codes. */
 MUST_CHECK enum result pass_image_path(const struct pass_images *images, enum pass_id id, char **path,
                                        struct error *err);
 

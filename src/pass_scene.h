@@ -54,7 +54,7 @@ struct scene_part {
 
 struct pass {
     const char *name;
-    bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
+    bool codes;     /* a 16-bit PPM of codes; else EXR of radiance */
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
     bool margin;    /* rendered with the margin, by the camera of PASS_MARGIN_CAMERA */
     bool smooth;    /* antialiased, whatever the user asks */

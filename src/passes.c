@@ -316,7 +316,7 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
     const struct pass pass = pass_of(&passes->scene, id);
-    static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
+    static const char *const codes[] = {"+Oimage.ppm", "+FP16", "File_Gamma=1.0", "Dither=off", NULL};
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
     enum result result = scene_arguments(passes, frame, arguments, err);
     const char *const *format = pass.codes ? codes : radiance;

@@ -456,8 +456,9 @@ static enum result write_cover(struct writer *writer, int token, int last, struc
     if (result || in_texture(writer->file, token) || !writer->rules->marks || has_finish_after(writer->file, last))
         return result;
     return buffer_add_text(&writer->out,
-                           writer->rules->covers ? "povgloss_count(povgloss_own) povgloss_hide(povgloss_own) "
-                                                 : "povgloss_count(povgloss_own) ",
+                           writer->rules->covers   ? "povgloss_hide(povgloss_own) "
+                           : writer->rules->places ? "povgloss_count(povgloss_own) "
+                                                   : "",
                            err);
 }
 

@@ -70,7 +70,7 @@ cat > one-pass/povray << SH
 #!/bin/sh
 case "\$(basename "\$PWD")" in
     "\$PASS") ;;
-    exponent) exec cp "$scratch/one-pass/kept/exponent/image.png" . ;;
+    exponent) exec cp "$scratch/one-pass/kept/exponent/image.ppm" . ;;
     *) exec sleep 60 ;;
 esac
 exec $(command -v povray) "\$@"

@@ -408,7 +408,7 @@ static void copy__pigments_that_may_be_transparent__looked_at_by_povray(void **s
         snprintf(source, sizeof source, "sphere { 0, 1 %s }", clear[i]);
         snprintf(coded, sizeof coded, "sphere { 0, 1 #declare povgloss_cover = %s; povgloss_cover_of_object(0) }", clear[i]);
         snprintf(seen, sizeof seen,
-                 "sphere { 0, 1 #declare povgloss_cover = %s; povgloss_cover_of_object(0) povgloss_count(povgloss_own) "
+                 "sphere { 0, 1 #declare povgloss_cover = %s; povgloss_cover_of_object(0) "
                  "povgloss_hide(povgloss_own) }",
                  clear[i]);
         const struct rewriting cases[] = {{MIRROR, source, seen}, {REFLECTANCE, source, seen}, {CODED, source, coded},
@@ -420,7 +420,7 @@ static void copy__pigments_that_may_be_transparent__looked_at_by_povray(void **s
          "sphere { 0, 1 " TEXTURE COVER("pigment { rgbt 1 }", "texture") "povgloss_hide(povgloss_last) } }"},
         {MIRROR, "pigment { uv_mapping image_map { \"a.png\" } }",
          "#declare povgloss_cover = pigment { uv_mapping image_map { \"a.png\" } }; povgloss_cover_of_object(1) "
-         "povgloss_count(povgloss_own) povgloss_hide(povgloss_own) "},
+         "povgloss_hide(povgloss_own) "},
         /* By way of other names, also backwards; parameters of macros may be anything. */
         {CODED, "#declare A = B; #declare B = rgbt 1; pigment { A }",
          "#declare A = B; #ifdef (povgloss_of_1) #declare povgloss_of_0 = povgloss_of_1; #end #declare B = rgbt 1; " COVER("pigment { A }", "object")},
