@@ -11,7 +11,7 @@ static double length_of(const double v[3])
 
 static double sixteen_bits(double code)
 {
-    assert_true(code > 0 && code < 1);
+    assert_true(code >= 0 && code < 1);
     return (float)(round(code * 65535) / 65535);
 }
 
@@ -23,7 +23,7 @@ static void encode(const double p[3], bool direction, struct image *high, struct
     for (int axis = 0; axis < 3; axis++) {
         double v = 0.5 + 0.499 * p[axis] / length * radius, steps = 16384 * v;
         image_row(high, axis, y)[x] = (float)sixteen_bits(v);
-        image_row(low, axis, y)[x] = (float)sixteen_bits(0.001 + 0.998 * (steps - floor(steps)));
+        image_row(low, axis, y)[x] = (float)sixteen_bits(steps - floor(steps));
     }
 }
 
