@@ -1,4 +1,5 @@
-/* Reads what the passes left: codes from 16-bit PPM (POV-Ray spends no time on compressing it), radiance from EXR. See pass_scene.c for how each was coded. */
+/* Reads what the passes left: codes from 16-bit PPM, on which POV-Ray spends no time to compress it, radiance from EXR. See
+ * pass_scene.c for how each was coded. */
 #include "pass_images.h"
 
 #include "exr_io.h"

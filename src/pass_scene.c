@@ -261,7 +261,8 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
                                "  #ifdef (povgloss_plain) povgloss_set_default(povgloss_t) #end %5$s\n"
                                "  #ifdef (povgloss_plain) povgloss_set_default(0) #end\n"
                                "#end\n",
-                               part->placed ? "povgloss_count(<-1, 0, -1, povgloss_t>)" : "", mirror ? "#if (povgloss_texture.x < povgloss_maps_from)" : "", mirror ? thinned : keep,
+                               part->placed ? "povgloss_count(<-1, 0, -1, povgloss_t>)" : "",
+                               mirror ? "#if (povgloss_texture.x < povgloss_maps_from)" : "", mirror ? thinned : keep,
                                mirror ? "#end" : "", part->copy == SCENE_COPY_CODED ? coded : mirror ? thinned : keep);
     free(thinned);
     return result;

@@ -16,7 +16,8 @@ struct bytes {
 
 static void skip_space(struct bytes *bytes)
 {
-    for (bool comment = false; bytes->at < bytes->end && (comment || *bytes->at == '#' || isspace(*bytes->at)); bytes->at++)
+    bool comment = false;
+    for (; bytes->at < bytes->end && (comment || *bytes->at == '#' || isspace(*bytes->at)); bytes->at++)
         comment = (comment || *bytes->at == '#') && *bytes->at != '\n';
 }
 

@@ -12,7 +12,8 @@ int end_of_block(const struct scene_file *file, int token)
         return -1;
     int last = last_of_value(file, name + 1);
     last += is_mark(file, last + 1, ";");
-    bool ends = is_mark(file, last, ";") || last + 2 >= file->list.count || file->list.tokens[last + 1].kind == TOKEN_DIRECTIVE;
+    bool ends = is_mark(file, last, ";") || last + 2 >= file->list.count ||
+                file->list.tokens[last + 1].kind == TOKEN_DIRECTIVE;
     return ends && !has_effects(file, value, last) ? last : -1;
 }
 
