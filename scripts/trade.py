@@ -93,7 +93,7 @@ class Scene:
     def normals(self, p):
         """The specular pass in a larger picture, every pixel of which meets another bump, and the mean of each square."""
         folder = f'{self.folder}/keep/specular'
-        lines = open(f'{folder}/pass.pov').read().split('\n')
+        lines = open(f'{folder}/pass.inc').read().split('\n')
         at = max(i for i, line in enumerate(lines) if line.startswith('#default { pigment { povgloss_pigment }'))
         lines.insert(at + 1, f'#default {{ normal {{ bumps {np.sqrt(BUMPS / p):.5g} scale 0.0003 }} }}')
         open(f'{folder}/normals.pov', 'w').write('\n'.join(lines))

@@ -1,12 +1,13 @@
-/* Reads what the passes left: codes from 16-bit PNG, radiance from EXR. See pass_scene.c for how each was coded. */
+/* Reads what the passes left: codes from 16-bit PPM, on which POV-Ray spends no time to compress it, radiance from EXR. See
+ * pass_scene.c for how each was coded. */
 #include "pass_images.h"
 
 #include "exr_io.h"
 #include "eye.h"
 #include "gamma.h"
 #include "interpolate.h"
-#include "png_io.h"
 #include "position_code.h"
+#include "ppm_io.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +16,7 @@
 enum result pass_image_path(const struct pass_images *images, enum pass_id id, char **path, struct error *err)
 {
     return text_printf(path, err, "%s/%s/image%s.%s", images->folder, pass_table[id].name, images->number,
-                       pass_table[id].codes ? "png" : "exr");
+                       pass_table[id].codes ? "ppm" : "exr");
 }
 
 /* Of a mixed texture: a glossy surface with a smaller share isn't glossy. */
@@ -32,7 +33,7 @@ static enum result read_codes(const struct pass_images *images, enum pass_id id,
     enum result result = pass_image_path(images, id, &path, err);
     if (result)
         return result;
-    result = png_read(path, image, err);
+    result = ppm_read(path, image, err);
     free(path);
     return result;
 }
@@ -112,23 +113,37 @@ static bool locate(const struct image *positions, const struct image *directions
     return gbuffer.has_eye;
 }
 
-enum result pass_images_camera(const struct pass_images *images, struct camera *camera, bool *found, int *width,
-                               int *height, struct error *err)
+enum result pass_images_view(const struct pass_images *images, struct camera *camera, bool *found, struct error *err)
 {
-    struct image directions = {0}, positions = {0}, few = {0};
-    enum result result = read_coded(images, PASS_DIRECTION, PASS_DIRECTION, NULL, &directions, err);
-    if (!result)
-        result = read_coded(images, PASS_PLACE, PASS_PLACE_LOW, NULL, &positions, err);
+    struct image directions = {0};
+    enum result result = read_coded(images, PASS_VIEW, PASS_VIEW, NULL, &directions, err);
     *found = !result && camera_fit(&directions, camera);
-    if (*found)
-        result = camera_directions(camera, positions.width, positions.height, &few, err);
-    *found = *found && !result && locate(&positions, &few, camera);
-    *width = directions.width;
-    *height = directions.height;
     image_free(&directions);
-    image_free(&positions);
-    image_free(&few);
     return result;
+}
+
+enum result pass_images_camera(const struct pass_images *images, struct camera *camera, bool *found, struct error *err)
+{
+    struct image positions = {0}, directions = {0};
+    *found = false;
+    if (!images->view)
+        return RESULT_OK;
+    *camera = *images->view;
+    enum result result = read_coded(images, PASS_PLACE, PASS_PLACE_LOW, NULL, &positions, err);
+    if (!result)
+        result = camera_directions(camera, positions.width, positions.height, &directions, err);
+    *found = !result && locate(&positions, &directions, camera);
+    image_free(&positions);
+    image_free(&directions);
+    return result;
+}
+
+/* The camera's rays at every pixel, in *directions. */
+static enum result read_directions(const struct pass_images *images, int width, int height, struct image *directions,
+                                   struct error *err)
+{
+    return images->view ? camera_directions(images->view, width, height, directions, err)
+                        : read_coded(images, PASS_DIRECTION, PASS_DIRECTION, NULL, directions, err);
 }
 
 /* What a glossy surface reflects is one half of the working space. */
@@ -323,7 +338,8 @@ static enum result drop_w(struct image *image, struct error *err)
     return RESULT_OK;
 }
 
-/* The passes of full size are as large as the base, the others as its subsampling says. */
+/* The passes of full size are as large as the base, the others as its subsampling says; with a margin there are no
+ * directions. */
 static enum result check_sizes(const struct pass_images *images, const struct gbuffer *gbuffer,
                                const struct image *directions, struct error *err)
 {
@@ -342,7 +358,7 @@ static enum result check_sizes(const struct pass_images *images, const struct gb
     const struct image *base = &gbuffer->base;
     for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
         int width = base->width / planes[i].step, height = base->height / planes[i].step;
-        if (planes[i].image->width != width || planes[i].image->height != height)
+        if (planes[i].image->pixels && (planes[i].image->width != width || planes[i].image->height != height))
             return error_set(err, RESULT_DATA,
                              "%s: POV-Ray's image of the %s pass is %dx%d, and %dx%d goes with the base: give +W and +H",
                              images->name, planes[i].pass, planes[i].image->width, planes[i].image->height, width,
@@ -394,8 +410,7 @@ static void note_lost(const struct gbuffer *gbuffer, const char *scene, struct e
 }
 
 /* What is rendered of the picture alone gets the size of what has a margin, black there. */
-static enum result widen(const struct pass_images *images, struct gbuffer *gbuffer, struct image *directions,
-                         struct error *err)
+static enum result widen(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
 {
     int width = gbuffer->base.width, height = gbuffer->base.height;
     const struct image_window all = {.left = -images->margin_x,
@@ -405,9 +420,7 @@ static enum result widen(const struct pass_images *images, struct gbuffer *gbuff
     gbuffer->window = (struct image_window){
         .left = images->margin_x, .top = images->margin_y, .width = width, .height = height};
     enum result result = image_crop(&gbuffer->base, &all, err);
-    if (!result)
-        result = image_crop(&gbuffer->reflectance, &all, err);
-    return result ? result : image_crop(directions, &all, err);
+    return result ? result : image_crop(&gbuffer->reflectance, &all, err);
 }
 
 static void set_eye(const struct camera *camera, struct gbuffer *gbuffer)
@@ -460,9 +473,8 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     if (!result)
         result = read_coded(images, PASS_ENDPOINT, PASS_ENDPOINT_LOW, &codes, &gbuffer->endpoint, err);
     if (!result)
-        result = read_coded(images, PASS_DIRECTION, PASS_DIRECTION, NULL, &directions, err);
-    if (!result && images->camera)
-        result = widen(images, gbuffer, &directions, err);
+        result = images->camera ? widen(images, gbuffer, err)
+                                : read_directions(images, gbuffer->position.width, gbuffer->position.height, &directions, err);
     if (!result)
         result = alloc_exponents(gbuffer, &codes, err);
     if (!result)

@@ -15,10 +15,11 @@ struct pass_images {
     int subsample;
     bool rays; /* with those of the mirror */
     int margin_x, margin_y; /* in which the passes for the filter are wider than the picture, on each side; px */
+    const struct camera *view;   /* has the picture's rays; NULL: the direction pass has them */
     const struct camera *camera; /* of the picture, with its eye; NULL without a margin */
 };
 
-/* The path of a pass's image, which the caller frees: folder/pass/image03.exr, .png for codes. */
+/* The path of a pass's image, which the caller frees: folder/pass/image03.exr, .ppm for codes. */
 MUST_CHECK enum result pass_image_path(const struct pass_images *images, enum pass_id id, char **path,
                                        struct error *err);
 
@@ -31,10 +32,15 @@ MUST_CHECK enum result pass_images_radiance(const struct pass_images *images, en
 MUST_CHECK enum result pass_images_glossy(const struct pass_images *images, struct image_window *window,
                                           struct error *err);
 
-/* The picture's camera, with its location, from the passes that find it, and the picture's size. *found is false where
- * it isn't a perspective camera or sees nothing to tell its location by. */
+/* The camera, but for its location, whose rays the view pass shows some of. *found is false where it isn't a perspective
+ * camera. */
+MUST_CHECK enum result pass_images_view(const struct pass_images *images, struct camera *camera, bool *found,
+                                        struct error *err);
+
+/* The picture's camera, with its location, from the view and the passes of places. *found is false without a view, or
+ * where it sees nothing to tell its location by. */
 MUST_CHECK enum result pass_images_camera(const struct pass_images *images, struct camera *camera, bool *found,
-                                          int *width, int *height, struct error *err);
+                                          struct error *err);
 
 /* Reads and decodes all of them into *gbuffer: a and b, the eye, exponents, reflectance in the working space;
  * subsampled passes interpolated; with a margin the window is the picture in them. RESULT_DATA where an image is

@@ -47,6 +47,8 @@ static const char outside[] = "povgloss_leave_copy() object { povgloss_object } 
 /* From this transparency on a surface before a glossy one is looked through. A mirrored ray ends where most of it
  * does. */
 #define CLEAR 0.01
+#define DIGITS_(number) #number
+#define DIGITS(number) DIGITS_(number)
 #define MOSTLY_CLEAR 0.5
 
 const struct pass pass_table[PASS_COUNT] = {
@@ -123,6 +125,14 @@ const struct pass pass_table[PASS_COUNT] = {
                            .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS, .coded = true},
                            .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
                            .coded_sky = true},
+    [PASS_VIEW] = {.name = "view",
+                   .codes = true,
+                   .technical = true,
+                   .digits = POSITION_DIGITS_HIGH,
+                   .clear_from = CLEAR,
+                   .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS},
+                   .second = {.copy = -1},
+                   .coded_sky = true},
     [PASS_DIRECTION] = {.name = "direction",
                         .codes = true,
                         .technical = true,
@@ -155,6 +165,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .trailer = sky_white},
     [PASS_EXPONENT_MEAN] = {.name = "exponent-mean",
                             .margin = true,
+                            .glossy_part = true,
                             .codes = true,
                             .smooth = true,
                             .technical = true,
@@ -209,13 +220,20 @@ static bool is_mirror_copy(const struct scene_part *part)
     return part->copy == SCENE_COPY_MIRROR || part->copy == SCENE_COPY_MIRROR_SECOND;
 }
 
+/* The scene's macros call few others: POV-Ray reads a macro's text from its file at each call. Of a transparency and of a
+ * state: */
+#define IS_CLEAR(transparency) "(" transparency " >= " DIGITS(CLEAR) ")"
+#define EXPONENT(state) \
+    "(" state ".x >= 0 | " state ".y <= 0 | " IS_CLEAR(state ".t") " ? " state ".x :\n" \
+    "    (povgloss_automatic & " state ".z >= 0 ? " state ".z : povgloss_all))"
+
 /* What takes the place of povgloss_cover, a pigment that may be transparent, in a texture and in an object. */
 static enum result add_cover_macros(const struct scene_part *part, struct buffer *text, struct error *err)
 {
     static const char keep[] = "pigment { povgloss_cover }", coded[] = "povgloss_coded(povgloss_t)";
+#define THROUGH(place) "(povgloss_through(" place ").filter + povgloss_through(" place ").transmit)"
     static const char thin[] = "pigment { #if (povgloss_uv) uv_mapping #end\n"
-                               "    function { min(0.999, povgloss_through(x, y, z).filter + "
-                               "povgloss_through(x, y, z).transmit) }\n"
+                               "    function { min(0.999, " THROUGH("x, y, z") ") }\n"
                                "    color_map { [0 rgb 0] [%1$g rgb 0] [%1$g rgbt 1] [1 rgbt 1] } }";
     bool mirror = is_mirror_copy(part);
     char *thinned;
@@ -225,24 +243,25 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
                                "#macro povgloss_see()\n"
                                "  #ifdef (povgloss_through) #undef povgloss_through #end\n"
                                "  #declare povgloss_through = function { pigment { povgloss_cover } };\n"
-                               "  #declare povgloss_t = min(povgloss_at(0.1, 0.2, 0.3), povgloss_at(-5.3, 3.1, -2.7));\n"
-                               "#end\n"
-                               "#macro povgloss_at(povgloss_x, povgloss_y, povgloss_z)\n"
-                               "  (povgloss_through(povgloss_x, povgloss_y, povgloss_z).filter +\n"
-                               "   povgloss_through(povgloss_x, povgloss_y, povgloss_z).transmit)\n"
+                               "  #declare povgloss_t = min(" THROUGH("0.1, 0.2, 0.3") ", " THROUGH("-5.3, 3.1, -2.7") ");\n"
                                "#end\n"
                                "#macro povgloss_cover_of_texture(povgloss_uv)\n"
                                "  povgloss_see()\n"
                                "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
                                "    min(povgloss_lower, povgloss_t)>;\n"
-                               "  #declare povgloss_last = povgloss_texture; povgloss_count(<-1, 0, -1, povgloss_t>)\n"
-                               "  povgloss_set_default(povgloss_t) %s %s %s povgloss_set_default(0)\n#end\n"
+                               "  #declare povgloss_last = povgloss_texture; %1$s\n"
+                               "  #ifdef (povgloss_plain) povgloss_set_default(povgloss_t) #end %2$s %3$s %4$s\n"
+                               "  #ifdef (povgloss_plain) povgloss_set_default(0) #end\n"
+                               "#end\n"
                                "#macro povgloss_cover_of_object(povgloss_uv)\n"
                                "  povgloss_see()\n"
                                "  #declare povgloss_own = <povgloss_default_state.x, povgloss_default_state.y,\n"
                                "    povgloss_default_state.z, povgloss_t>;\n"
-                               "  povgloss_count(<-1, 0, -1, povgloss_t>)\n"
-                               "  povgloss_set_default(povgloss_t) %s povgloss_set_default(0)\n#end\n",
+                               "  %1$s\n"
+                               "  #ifdef (povgloss_plain) povgloss_set_default(povgloss_t) #end %5$s\n"
+                               "  #ifdef (povgloss_plain) povgloss_set_default(0) #end\n"
+                               "#end\n",
+                               part->placed ? "povgloss_count(<-1, 0, -1, povgloss_t>)" : "",
                                mirror ? "#if (povgloss_texture.x < povgloss_maps_from)" : "", mirror ? thinned : keep,
                                mirror ? "#end" : "", part->copy == SCENE_COPY_CODED ? coded : mirror ? thinned : keep);
     free(thinned);
@@ -258,9 +277,10 @@ static enum result add_cover_macros(const struct scene_part *part, struct buffer
  * they reflect inside can't be blurred. POV-Ray's specular highlight is a power 1/roughness of the cosine about the
  * half vector, whose angle is half of that from the mirror direction: an exponent of 1/(4 roughness) there. phong_size
  * is an exponent about the mirror direction.
- * povgloss_counts is how many glossy textures came by (x), transparent ones (y), objects by names of which neither is
- * known (z), and transparent mirrors without gloss (t). */
-static enum result add_state_macros(const struct scene *scene, struct buffer *text, struct error *err)
+ * Where objects are placed povgloss_counts is how many glossy textures came by (x), transparent ones (y), objects by names
+ * of which neither is known (z), and transparent mirrors without gloss (t). */
+static enum result add_state_macros(const struct scene *scene, const struct scene_part *part, struct buffer *text,
+                                    struct error *err)
 {
     const struct gloss_choice *choice = scene->choice;
     enum result result = buffer_add_text(
@@ -271,22 +291,13 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "#declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
         "#declare povgloss_default_state = povgloss_none; #declare povgloss_value = 0;\n"
         "#ifdef (povgloss_plain) #undef povgloss_plain #end\n"
-        "#declare povgloss_counts = <0, 0, 0, 0>;\n"
-        "#macro povgloss_add(povgloss_c) #declare povgloss_counts = povgloss_counts + povgloss_c; #end\n"
-        "#macro povgloss_count(povgloss_s)\n"
-        "  #local povgloss_c = povgloss_clear(povgloss_s.t);\n"
-        "  #local povgloss_g = (povgloss_exponent(povgloss_s) >= 0);\n"
-        "  povgloss_add(<povgloss_g, povgloss_c, 0, (povgloss_c & !povgloss_g & povgloss_s.y > 0)>)\n"
-        "#end\n"
         "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_default_state; #end\n"
         "#macro povgloss_upper_layer()\n"
         "  #declare povgloss_lower = povgloss_last.t; #declare povgloss_texture = povgloss_default_state;\n"
         "#end\n"
         "#macro povgloss_set_default(povgloss_c)\n"
-        "  #ifdef (povgloss_plain)\n"
-        "    #if (povgloss_clear(povgloss_c)) #default { finish { povgloss_plain } }\n"
-        "    #else #default { finish { povgloss_shiny } } #end\n"
-        "  #end\n"
+        "  #if " IS_CLEAR("povgloss_c") " #default { finish { povgloss_plain } }\n"
+        "  #else #default { finish { povgloss_shiny } } #end\n"
         "#end\n"
         "#macro povgloss_layered()\n"
         "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
@@ -298,18 +309,14 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "  #declare povgloss_begun = povgloss_of.x;\n"
         "#end\n"
         "#macro povgloss_of_finish(povgloss_s)\n"
-        "  povgloss_set(povgloss_s.x, povgloss_s.y, povgloss_s.z)\n"
+        "  #declare povgloss_state = <povgloss_s.x, povgloss_s.y, povgloss_s.z, povgloss_state.t>;\n"
         "#end\n"
-        "#macro povgloss_of_texture(povgloss_s)\n"
-        "  #declare povgloss_texture = povgloss_s;\n"
-        "  povgloss_count(<povgloss_s.x, povgloss_s.y, povgloss_s.z, min(povgloss_lower, povgloss_s.t)>)\n"
-        "#end\n"
-        "#macro povgloss_of_material(povgloss_s) #declare povgloss_last = povgloss_s; povgloss_count(povgloss_s) #end\n"
         "#macro povgloss_set(povgloss_x, povgloss_y, povgloss_z)\n"
         "  #declare povgloss_state = <povgloss_x, povgloss_y, povgloss_z, povgloss_state.t>;\n"
         "#end\n"
         "#macro povgloss_reflection(povgloss_v)\n"
-        "  #declare povgloss_reflects = 1; povgloss_set(povgloss_state.x, povgloss_v, povgloss_state.z)\n"
+        "  #declare povgloss_reflects = 1;\n"
+        "  #declare povgloss_state = <povgloss_state.x, povgloss_v, povgloss_state.z, povgloss_state.t>;\n"
         "#end\n"
         "#macro povgloss_phong_size()\n"
         "  povgloss_set(povgloss_state.x, povgloss_state.y, povgloss_size) phong_size povgloss_size\n"
@@ -318,16 +325,30 @@ static enum result add_state_macros(const struct scene *scene, struct buffer *te
         "  povgloss_set(povgloss_state.x, povgloss_state.y, 1/(4*max(povgloss_size, 1e-9))) roughness povgloss_size\n"
         "#end\n",
         err);
-    if (result)
-        return result;
-    return buffer_printf(text, err,
-                         "#macro povgloss_clear(povgloss_c) (povgloss_c >= %g) #end\n"
-                         "#declare povgloss_all = %.9g;\n"
-                         "#macro povgloss_exponent(povgloss_s)\n"
-                         "  (povgloss_s.x >= 0 | povgloss_s.y <= 0 | povgloss_clear(povgloss_s.t) ? povgloss_s.x : %s)\n"
-                         "#end\n",
-                         CLEAR, choice->all ? fmin(choice->all_exponent, 1e30) : -1,
-                         choice->automatic ? "(povgloss_s.z >= 0 ? povgloss_s.z : povgloss_all)" : "povgloss_all");
+    if (!result)
+        result = buffer_printf(text, err,
+                               "#declare povgloss_all = %.9g; #declare povgloss_automatic = %d;\n"
+                               "#macro povgloss_exponent(povgloss_s) " EXPONENT("povgloss_s") " #end\n"
+                               "#macro povgloss_of_texture(povgloss_s) #declare povgloss_texture = povgloss_s; %s #end\n"
+                               "#macro povgloss_of_material(povgloss_s) #declare povgloss_last = povgloss_s; %s #end\n",
+                               choice->all ? fmin(choice->all_exponent, 1e30) : -1, choice->automatic,
+                               part->placed ? "povgloss_count(<povgloss_s.x, povgloss_s.y, povgloss_s.z, "
+                                              "min(povgloss_lower, povgloss_s.t)>)" : "",
+                               part->placed ? "povgloss_count(povgloss_s)" : "");
+    if (!result && part->placed)
+        result = buffer_add_text(text,
+                                 "#declare povgloss_counts = <0, 0, 0, 0>;\n"
+                                 "#macro povgloss_add(povgloss_c)\n"
+                                 "  #declare povgloss_counts = povgloss_counts + povgloss_c;\n"
+                                 "#end\n"
+                                 "#macro povgloss_count(povgloss_s)\n"
+                                 "  #local povgloss_c = " IS_CLEAR("povgloss_s.t") ";\n"
+                                 "  #local povgloss_g = (" EXPONENT("povgloss_s") " >= 0);\n"
+                                 "  #declare povgloss_counts = povgloss_counts +\n"
+                                 "    <povgloss_g, povgloss_c, 0, (povgloss_c & !povgloss_g & povgloss_s.y > 0)>;\n"
+                                 "#end\n",
+                                 err);
+    return result;
 }
 
 static bool is_base(const struct scene_part *part)
@@ -378,15 +399,15 @@ static enum result add_map_macros(const struct pass *pass, struct buffer *text, 
 }
 
 /* What a copy with marked finishes refers to besides. */
-static enum result add_finish_macros(const struct pass *pass, const struct scene_part *part, struct buffer *text,
-                                     struct error *err)
+static enum result add_finish_macros(const struct scene *scene, const struct pass *pass, const struct scene_part *part,
+                                     struct buffer *text, struct error *err)
 {
     enum result result = buffer_add_text(
         text,
         "#macro povgloss_dark() ambient 0 emission 0 diffuse 0 specular 0 phong 0 irid { 0 } #end\n"
         "#declare povgloss_pigment = pigment { rgb 0 };\n"
         "#macro povgloss_hide(povgloss_s)\n"
-        "  #if (povgloss_exponent(povgloss_s) >= 0 & (povgloss_mirrors | povgloss_clear(povgloss_s.t))\n"
+        "  #if (" EXPONENT("povgloss_s") " >= 0 & (povgloss_mirrors | " IS_CLEAR("povgloss_s.t") ")\n"
         "       & povgloss_s.x < povgloss_maps_from) pigment { rgb 0 } #end\n"
         "#end\n"
         "#macro povgloss_exponent_code(povgloss_p)\n"
@@ -394,7 +415,8 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
         "#end\n",
         err);
     if (!result)
-        result = add_map_macros(pass, text, err);
+        result = scene->painted ? add_map_macros(pass, text, err)
+                                : buffer_add_text(text, "#declare povgloss_maps_from = 1e60;\n", err);
     if (!result)
         result = buffer_printf(text, err, "#declare povgloss_mirrors = %d;\n", pass->mirror_colour != NULL);
     if (!result && pass->mirror_colour)
@@ -403,19 +425,21 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
         result = buffer_printf(text, err,
                                "#macro povgloss_finish(povgloss_named)\n"
                                "  #if (povgloss_given >= 0) #declare povgloss_phong = povgloss_given; #end\n"
-                               "  povgloss_take_map()\n"
-                               "  #if (povgloss_phong >= 0) povgloss_set(povgloss_phong, povgloss_state.y, povgloss_state.z) "
-                               "#end\n"
-                               "  #declare povgloss_last = povgloss_state; povgloss_count(povgloss_state)\n"
-                               "  #declare povgloss_phong = (povgloss_named ? povgloss_state.x : "
-                               "povgloss_exponent(povgloss_state));\n"
+                               "  %s\n"
+                               "  #if (povgloss_phong >= 0)\n"
+                               "    #declare povgloss_state =\n"
+                               "      <povgloss_phong, povgloss_state.y, povgloss_state.z, povgloss_state.t>;\n"
+                               "  #end\n"
+                               "  #declare povgloss_last = povgloss_state; %s\n"
+                               "  #declare povgloss_phong = (povgloss_named ? povgloss_state.x :\n"
+                               "    " EXPONENT("povgloss_state") ");\n"
                                "  %s\n"
                                "  #if (povgloss_phong >= povgloss_maps_from) emission 1 crand 0 #end\n"
                                "#end\n"
                                "#macro povgloss_end() povgloss_finish(0) #end\n"
                                "#macro povgloss_end_of_name() povgloss_finish(1) #end\n"
                                "#macro povgloss_enter_default()\n"
-                               "  povgloss_set_default(1) povgloss_layer()\n"
+                               "  #ifdef (povgloss_plain) povgloss_set_default(1) #end povgloss_layer()\n"
                                "  #declare povgloss_last = povgloss_default_state;\n"
                                "#end\n"
                                "#macro povgloss_leave_default()\n"
@@ -428,7 +452,8 @@ static enum result add_finish_macros(const struct pass *pass, const struct scene
                                "  povgloss_set_default(0)\n"
                                "#end\n"
                                "#macro povgloss_of_default() #ifdef (povgloss_plain) povgloss_plain #end #end\n",
-                               part->finish_end);
+                               scene->painted ? "povgloss_take_map()" : "",
+                               part->placed ? "povgloss_count(povgloss_state)" : "", part->finish_end);
     /* POV-Ray gives a name that is first declared within its own first declaration the inner value. */
     if (!result && part->placed)
         result = buffer_printf(text, err,
@@ -507,13 +532,13 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
                             struct buffer *text, struct error *err)
 {
     bool coded = part->copy == SCENE_COPY_CODED, tracked = part->copy != SCENE_COPY_PLAIN;
-    enum result result = tracked ? add_state_macros(scene, text, err) : RESULT_OK;
+    enum result result = tracked ? add_state_macros(scene, part, text, err) : RESULT_OK;
     if (!result && tracked)
         result = scene_declare_states(scene, text, err);
     if (!result && tracked)
         result = add_cover_macros(part, text, err);
     if (!result && tracked)
-        result = coded ? add_coded_macros(pass, text, err) : add_finish_macros(pass, part, text, err);
+        result = coded ? add_coded_macros(pass, text, err) : add_finish_macros(scene, pass, part, text, err);
     char *name = NULL;
     if (!result)
         result = scene_copy_name(scene, (enum scene_copy)part->copy, 0, &name, err);
@@ -553,19 +578,11 @@ static enum result add_coded_sky(const struct pass *pass, struct buffer *text, s
     return result ? result : buffer_add_text(text, "}\n", err);
 }
 
-static bool may_hold_clear(const struct scene *scene)
-{
-    for (int i = 0; i < scene->file_count; i++)
-        if (scene->files[i].clear[scene->files[i].list.count] > 0)
-            return true;
-    return false;
-}
-
 /* Whether a mirror without gloss may show a glossy surface. With --gloss all only transparent surfaces are such
  * mirrors. */
 static bool scene_mirrors_gloss(const struct scene *scene)
 {
-    return scene->plain_mirrors && (!scene->choice->all || may_hold_clear(scene));
+    return scene->plain_mirrors && (!scene->choice->all || scene->may_be_clear);
 }
 
 bool pass_weights_specular(const struct scene *scene)

@@ -20,6 +20,7 @@ enum pass_id {
     PASS_POSITION_LOW,
     PASS_ENDPOINT,
     PASS_ENDPOINT_LOW,
+    PASS_VIEW, /* directions, few, by which a camera may be known */
     PASS_DIRECTION,
     PASS_PLACE, /* positions, few, that tell the eye's before the passes with a margin are rendered */
     PASS_PLACE_LOW,
@@ -53,7 +54,7 @@ struct scene_part {
 
 struct pass {
     const char *name;
-    bool codes;     /* a 16-bit PNG of codes; else EXR of radiance */
+    bool codes;     /* a 16-bit PPM of codes; else EXR of radiance */
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
     bool margin;    /* rendered with the margin, by the camera of PASS_MARGIN_CAMERA */
     bool smooth;    /* antialiased, whatever the user asks */

@@ -41,22 +41,24 @@ struct passes {
     char version[POVRAY_VERSION_SIZE]; /* of a POV-Ray that isn't 3.7; told is whether the user knows */
     bool version_told;
     bool has_folder[PASS_COUNT];
-    bool margin;          /* is wanted; the camera of the frame that is rendered, */
-    bool has_camera;      /* where it is known, */
+    bool margin;          /* is wanted; of the frame that is rendered: */
+    bool has_view;        /* whether the camera's rays are known, */
+    struct camera view;
+    bool has_camera;      /* and its place, too */
     struct camera camera;
-    int width, height;      /* the picture, */
-    int margin_x, margin_y; /* and the pixels on each side of it */
+    int margin_x, margin_y; /* pixels on each side of the picture */
     struct povray_job jobs[PASS_COUNT];
     enum pass_id ids[PASS_COUNT];
     int job_count;
 };
 
-/* Writes the scene that POV-Ray reads in a folder. */
+/* Writes the scene that POV-Ray reads in a folder. For each call of its macros in an included file POV-Ray looks for it
+ * again, and in all folders first for a name with .inc at its end. */
 static enum result write_wrapper(const struct passes *passes, const char *folder, const struct buffer *text,
                                  struct error *err)
 {
     char *path;
-    enum result result = text_printf(&path, err, "%s/%s/pass.pov", passes->folder.path, folder);
+    enum result result = text_printf(&path, err, "%s/%s/pass.inc", passes->folder.path, folder);
     if (!result)
         result = file_write(path, text, err);
     free(path);
@@ -107,6 +109,13 @@ static bool is_checked(const struct passes *passes)
     return passes->options->check && !passes->options->switches->partial;
 }
 
+/* Whether the camera's rays may be found in a small picture. */
+static bool seeks_view(const struct passes *passes)
+{
+    const struct passes_options *options = passes->options;
+    return !options->rays && !options->switches->partial && !passes->scene.depends_on_size;
+}
+
 static enum result write_scenes(struct passes *passes, struct error *err)
 {
     bool needed[SCENE_COPY_COUNT] = {false};
@@ -118,7 +127,7 @@ static enum result write_scenes(struct passes *passes, struct error *err)
     for (int id = 0; !result && id < PASS_COUNT; id++) {
         bool asked = (passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id)) ||
                      (passes->margin && pass_is_place((enum pass_id)id));
-        bool unasked = id == PASS_OWN && !is_checked(passes);
+        bool unasked = (id == PASS_OWN && !is_checked(passes)) || (id == PASS_VIEW && !seeks_view(passes));
         if (unasked || (!asked && !pass_needed(&passes->scene, (enum pass_id)id)))
             continue;
         passes->ids[passes->job_count++] = (enum pass_id)id;
@@ -254,7 +263,7 @@ static enum result scene_arguments(const struct passes *passes, int frame, struc
         result = text_list_add(arguments, err, "+L../copies");
     for (int i = 0; !result && i < passes->directories.count; i++)
         result = text_list_add(arguments, err, "+L../lib%d", i);
-    static const char *const always[] = {"+Ipass.pov", "-D", "-P", "-C", "-UA", "+GA", "+V", NULL};
+    static const char *const always[] = {"+Ipass.inc", "-D", "-P", "-C", "-UA", "+GA", "+V", NULL};
     for (int i = 0; !result && always[i]; i++)
         result = text_list_add(arguments, err, "%s", always[i]);
     if (!result && options->frames.digits > 0)
@@ -278,9 +287,8 @@ static void picture_size(const struct passes *passes, int *width, int *height)
     *height = switches->height ? switches->height : POVRAY_HEIGHT;
 }
 
-/* A few thousand positions tell where the eye is; the proportion, which a camera may depend on, is that of the
- * picture. */
-static enum result add_place_size(const struct passes *passes, struct text_list *arguments, struct error *err)
+/* A few thousand rays and positions tell the camera; the proportion, on which it may depend, is that of the picture. */
+static enum result add_few_pixels(const struct passes *passes, struct text_list *arguments, struct error *err)
 {
     enum { LEAST_SIDE = 32 };
     int width, height, divisor = 1;
@@ -308,7 +316,7 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     const struct passes_options *options = passes->options;
     const struct povray_switches *switches = options->switches;
     const struct pass pass = pass_of(&passes->scene, id);
-    static const char *const codes[] = {"+Oimage.png", "+FN16", "File_Gamma=1.0", "Dither=off", NULL};
+    static const char *const codes[] = {"+Oimage.ppm", "+FP16", "File_Gamma=1.0", "Dither=off", NULL};
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
     enum result result = scene_arguments(passes, frame, arguments, err);
     const char *const *format = pass.codes ? codes : radiance;
@@ -318,8 +326,8 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
         result = text_list_add(arguments, err, "-A");
     if (!result && id == PASS_OWN)
         result = add_own_size(passes, arguments, err);
-    if (!result && pass_is_place(id))
-        result = add_place_size(passes, arguments, err);
+    if (!result && (id == PASS_VIEW || pass_is_place(id)))
+        result = add_few_pixels(passes, arguments, err);
     /* Reflectivities are small, and their edges show as much as those of the picture. */
     if (!result && id == PASS_REFLECTANCE && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
@@ -331,7 +339,7 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
     for (int i = 0; !result && id == PASS_PHOTONS && one_pixel[i]; i++)
         result = text_list_add(arguments, err, "%s", one_pixel[i]);
-    if (!result && options->subsample > 1 && !pass.full_size)
+    if (!result && options->subsample > 1 && !pass.full_size && id != PASS_VIEW)
         result = add_size(arguments, switches->width / options->subsample, switches->height / options->subsample, err);
     return result;
 }
@@ -389,7 +397,7 @@ static enum result report_failure(const struct passes *passes, const struct povr
         const char *slash = strrchr(copy, '/');
         int file = scene_file_of_copy(&passes->scene, slash ? slash + 1 : copy);
         result = buffer_add(&translated, at, (size_t)(name - at), &ignored);
-        bool is_pass = !strcmp(copy, "pass.pov"), wrapper = is_pass && !verbatim;
+        bool is_pass = !strcmp(copy, "pass.inc"), wrapper = is_pass && !verbatim;
         const char *path = file >= 0 ? passes->scene.files[file].path : is_pass ? passes->options->scene : copy;
         if (!result)
             result = add_user_name(passes, path, &translated, &ignored);
@@ -557,6 +565,7 @@ static struct pass_images images_of(const struct passes *passes, const char *num
                                 .rays = passes->options->rays,
                                 .margin_x = passes->margin_x,
                                 .margin_y = passes->margin_y,
+                                .view = passes->has_view ? &passes->view : NULL,
                                 .camera = passes->has_camera ? &passes->camera : NULL};
 }
 
@@ -577,7 +586,7 @@ struct run {
     int frame;
     struct text_list arguments[PASS_COUNT];
     char *folders[PASS_COUNT];
-    bool camera_sought;     /* it is known, or can't be */
+    bool view_sought, camera_sought; /* it is known, or can't be */
     bool narrows, narrowed; /* to the glossy window: whether passes are, and whether they have been */
 };
 
@@ -606,18 +615,25 @@ static enum result write_camera(const struct passes *passes, const struct buffer
     return result;
 }
 
+/* Where the camera's rays are found among few of them the others needn't be rendered. */
+static enum result seek_view(struct passes *passes, const struct pass_images *images, struct error *err)
+{
+    enum result result = pass_images_view(images, &passes->view, &passes->has_view, err);
+    job_of(passes, PASS_DIRECTION)->dropped = passes->has_view;
+    return result;
+}
+
 /* The picture's camera is found: with a margin it sees more. */
 static enum result add_margin(struct run *run, const struct pass_images *images, struct error *err)
 {
     struct passes *passes = run->passes;
     const struct passes_options *options = passes->options;
     struct buffer text = {0};
-    int width = 0, height = 0;
-    enum result result = pass_images_camera(images, &passes->camera, &passes->has_camera, &width, &height, err);
+    int width, height;
+    enum result result = pass_images_camera(images, &passes->camera, &passes->has_camera, err);
     if (result || !passes->has_camera)
         return result;
-    passes->width = width;
-    passes->height = height;
+    picture_size(passes, &width, &height);
     passes->margin_x = options->margin_px > 0 ? options->margin_px : (int)lround(options->margin * width);
     passes->margin_y = options->margin_px > 0 ? options->margin_px : (int)lround(options->margin * height);
     int all_width = width + 2 * passes->margin_x, all_height = height + 2 * passes->margin_y;
@@ -651,10 +667,12 @@ static enum result add_glossy_window(struct run *run, int index, const struct im
     int left = (int)window->left * step, right = left + window->width * step;
     int top = (int)window->top * step, bottom = top + window->height * step;
     if (passes->has_camera && !pass.margin) {
-        left = clamp(left - passes->margin_x, 0, passes->width - 1);
-        right = clamp(right - passes->margin_x, left + 1, passes->width);
-        top = clamp(top - passes->margin_y, 0, passes->height - 1);
-        bottom = clamp(bottom - passes->margin_y, top + 1, passes->height);
+        int width, height;
+        picture_size(passes, &width, &height);
+        left = clamp(left - passes->margin_x, 0, width - 1);
+        right = clamp(right - passes->margin_x, left + 1, width);
+        top = clamp(top - passes->margin_y, 0, height - 1);
+        bottom = clamp(bottom - passes->margin_y, top + 1, height);
     }
     left -= left % POVRAY_BLOCK;
     top -= top % POVRAY_BLOCK;
@@ -674,13 +692,14 @@ static enum result narrow(struct run *run, const struct pass_images *images, str
     return result;
 }
 
-/* Holds what needs something that isn't there yet: photons, the picture's camera, the glossy window. */
+/* Holds what needs something that isn't there yet: photons, the camera's rays and its place, the glossy window. */
 static void hold(struct run *run)
 {
     struct passes *passes = run->passes;
     for (int i = 0; i < passes->job_count; i++) {
         enum pass_id id = passes->ids[i];
         passes->jobs[i].held = (id != PASS_PHOTONS && !has_ended(passes, PASS_PHOTONS)) ||
+                               (id == PASS_DIRECTION && !run->view_sought) ||
                                (passes->margin && pass_table[id].margin && !run->camera_sought) ||
                                (run->narrows && pass_of(&passes->scene, id).glossy_part && !run->narrowed);
     }
@@ -694,7 +713,12 @@ static enum result go_on(void *context, struct error *err)
     char number[FRAMES_NUMBER_SIZE];
     frames_number(&passes->options->frames, run->frame, number);
     enum result result = RESULT_OK;
-    if (passes->margin && !run->camera_sought && has_ended(passes, PASS_DIRECTION) && has_ended(passes, PASS_PLACE) &&
+    if (!run->view_sought && has_ended(passes, PASS_VIEW)) {
+        const struct pass_images images = images_of(passes, number);
+        run->view_sought = true;
+        result = seek_view(passes, &images, err);
+    }
+    if (!result && passes->margin && !run->camera_sought && run->view_sought && has_ended(passes, PASS_PLACE) &&
         has_ended(passes, PASS_PLACE_LOW)) {
         const struct pass_images images = images_of(passes, number);
         run->camera_sought = true;
@@ -715,7 +739,7 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     struct run run = {.passes = passes, .frame = frame, .narrows = passes->scene.glossy && !options->switches->partial};
     const struct buffer none = {0};
     enum result result = passes->margin ? write_camera(passes, &none, err) : RESULT_OK;
-    passes->has_camera = false;
+    passes->has_view = passes->has_camera = false;
     passes->margin_x = passes->margin_y = 0;
     for (int i = 0; !result && i < passes->job_count; i++) {
         result = job_arguments(passes, passes->ids[i], frame, &run.arguments[i], err);
@@ -728,6 +752,7 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
                                               .ended = go_on,
                                               .context = &run};
     }
+    run.view_sought = !job_of(passes, PASS_VIEW);
     hold(&run);
     int failed = -1, at_once = options->jobs > 0 ? options->jobs : (int)sysconf(_SC_NPROCESSORS_ONLN) + 2;
     if (!result && job_of(passes, PASS_PHOTONS))

@@ -9,7 +9,8 @@
  *   reflectivity the same by one ray a pixel, by which a weighted L0 is divided
  *   position     a, coded as a colour (position_code.h)
  *   endpoint     b: mirrors seen by the camera, coded positions seen by mirrored rays, coded directions where they miss
- *   direction    the camera's rays, coded: they give the eye and the view angle whatever the camera
+ *   view         some of the camera's rays, coded: all are known by them where they are those of a perspective camera
+ *   direction    all of its rays where they aren't: they give the eye and the view angle whatever the camera
  *   exponent     the Phong exponent; the passes that only the reflection needs wait for it, to be rendered where
  *                something is glossy alone
  *   place        few positions, which tell the eye's where the passes are rendered with a margin

@@ -1,12 +1,11 @@
-/* PNG files as planes of floats, by libpng.
+/* Planes of floats as PNG files, by libpng.
  *
- * libpng reports an error by a call that must not return, so reading and writing each have one function with a setjmp.
+ * libpng reports an error by a call that must not return, so there is one function with a setjmp.
  * Everything that it changes and that is needed after the jump lives in a struct behind a pointer, never in a local
  * variable, which a longjmp may leave with an old value.
  */
 #include "png_io.h"
 
-#include "input_file.h"
 #include "output_file.h"
 
 #include <assert.h>
@@ -19,23 +18,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What deflate reaches at best. */
-static const double max_bytes_per_byte = 1032;
-
-/* A PNG that is being read or written. */
+/* A PNG that is being written. */
 struct codec {
     jmp_buf failed;
     char message[256]; /* libpng's, valid after the jump */
     png_structp png;
     png_infop info;
-    /* reading */
-    struct input_file input;
-    size_t position; /* in input */
-    int width, height, bits;
-    size_t row_bytes;
-    png_bytep pixels; /* height rows of RGB */
-    png_bytepp rows;
-    /* writing */
+    int bits;
+    png_bytep pixels; /* a row of RGB */
     struct output_file output;
     enum result result; /* of the output, its message in *err */
     struct error *err;
@@ -67,112 +57,6 @@ static PNG_NORETURN void on_error(png_structp png, png_const_charp message)
 static void on_warning(png_structp png, png_const_charp message)
 {
     (void)png, (void)message;
-}
-
-static void read_bytes(png_structp png, png_bytep buffer, size_t size)
-{
-    struct codec *codec = png_get_io_ptr(png);
-    if (size > codec->input.size - codec->position)
-        png_error(png, "the file ends too early");
-    memcpy(buffer, codec->input.data + codec->position, size);
-    codec->position += size;
-}
-
-/* Decodes into codec->pixels. False: libpng failed, codec->message says why; true with no pixels: too large. */
-static bool decode(struct codec *codec)
-{
-    if (setjmp(codec->failed))
-        return false;
-    codec->png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, codec, on_error, on_warning, codec, allocate, release);
-    codec->info = codec->png ? png_create_info_struct(codec->png) : NULL;
-    if (!codec->info) {
-        snprintf(codec->message, sizeof codec->message, "libpng cannot be started");
-        return false;
-    }
-    png_set_user_limits(codec->png, IMAGE_MAX_SIDE, IMAGE_MAX_SIDE);
-    /* Texts and profiles: a chunk claims up to 2 GB, and libpng takes as much before it reads. */
-    png_set_keep_unknown_chunks(codec->png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
-    png_set_chunk_malloc_max(codec->png, codec->input.size);
-    png_set_read_fn(codec->png, codec, read_bytes);
-    png_read_info(codec->png, codec->info);
-    double packed = (double)png_get_rowbytes(codec->png, codec->info) * png_get_image_height(codec->png, codec->info);
-    if (packed > max_bytes_per_byte * (double)codec->input.size)
-        png_error(codec->png, "its pixels can't be in so few bytes");
-    png_set_palette_to_rgb(codec->png);
-    png_set_expand_gray_1_2_4_to_8(codec->png);
-    png_set_gray_to_rgb(codec->png);
-    png_set_strip_alpha(codec->png);
-    png_set_interlace_handling(codec->png);
-    png_read_update_info(codec->png, codec->info);
-
-    codec->width = (int)png_get_image_width(codec->png, codec->info);
-    codec->height = (int)png_get_image_height(codec->png, codec->info);
-    codec->bits = png_get_bit_depth(codec->png, codec->info);
-    codec->row_bytes = png_get_rowbytes(codec->png, codec->info);
-    assert(png_get_channels(codec->png, codec->info) == 3);
-    /* The planes of floats take at most four times as much again. */
-    if (5.0 * (double)codec->row_bytes * codec->height > input_memory_limit())
-        return true;
-    codec->pixels = png_malloc(codec->png, codec->row_bytes * (size_t)codec->height);
-    codec->rows = png_malloc(codec->png, sizeof *codec->rows * (size_t)codec->height);
-    for (int y = 0; y < codec->height; y++)
-        codec->rows[y] = codec->pixels + (size_t)y * codec->row_bytes;
-    png_read_image(codec->png, codec->rows);
-    png_read_end(codec->png, NULL);
-    return true;
-}
-
-/* Code values to floats. */
-static void unpack(const struct codec *codec, struct image *image)
-{
-    for (int channel = 0; channel < 3; channel++) {
-        for (int y = 0; y < codec->height; y++) {
-            const unsigned char *from = codec->rows[y];
-            float *to = image_row(image, channel, y);
-            for (int x = 0; x < codec->width; x++) {
-                int sample = 3 * x + channel;
-                to[x] = codec->bits == 16 ? (float)(from[2 * sample] << 8 | from[2 * sample + 1]) / 65535.0f
-                                          : (float)from[sample] / 255.0f;
-            }
-        }
-    }
-}
-
-enum result png_read(const char *path, struct image *image, struct error *err)
-{
-    const char *name = input_file_name(path);
-    struct codec codec = {0};
-    *image = (struct image){0};
-    enum result result = input_file_read(path, &codec.input, err);
-    if (result)
-        return result;
-
-    if (codec.input.size < 8 || png_sig_cmp(codec.input.data, 0, 8) != 0) {
-        result = error_set(err, RESULT_DATA, "%s: %s", name, codec.input.size == 0 ? "is empty" : "not a PNG file");
-        goto out;
-    }
-    if (!decode(&codec)) {
-        result = codec.bytes_lacking
-                     ? error_memory(err, (double)codec.bytes_lacking)
-                     : error_set(err, RESULT_DATA, "%s: the PNG file is damaged, cut short or too large (%s)", name,
-                                 codec.message);
-        goto out;
-    }
-    if (!codec.pixels) {
-        result = error_set(err, RESULT_DATA, "%s: %d x %d pixels take more than half of this machine's memory", name,
-                           codec.width, codec.height);
-        goto out;
-    }
-    result = image_alloc(image, codec.width, codec.height, 3, err);
-    if (result)
-        goto out;
-    unpack(&codec, image);
-out:
-    png_destroy_read_struct(&codec.png, &codec.info, NULL);
-    free(codec.rows);
-    free(codec.pixels);
-    input_file_free(&codec.input);
-    return result;
 }
 
 /* The code of a linear value on the sRGB transfer curve (IEC 61966-2-1), to the nearest. */

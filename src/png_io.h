@@ -1,12 +1,8 @@
-/* PNG files as planes of floats. */
+/* Planes of floats as PNG files. */
 #ifndef POVGLOSS_PNG_IO_H
 #define POVGLOSS_PNG_IO_H
 
 #include "image.h"
-
-/* Reads an 8- or 16-bit RGB or grey PNG into a 3-channel image of its code values divided by the largest one (255 or
- * 65535), with no gamma applied: 16-bit codes come back exactly. */
-MUST_CHECK enum result png_read(const char *path, struct image *image, struct error *err);
 
 /* Writes the first 3 channels of a linear image through the sRGB transfer curve at 8 or 16 bits, tagged sRGB; values
  * are clipped to [0, 1], NaN becomes 0. `path` "-" is standard output; else through a temporary file in the same

@@ -3,53 +3,47 @@
 
 #include <math.h>
 
-/* Half the span of v, how much of its fraction the low digits hold, and the code's radii: see the header. */
+/* Half the span of v, how many steps of it have low digits, and the code's radii: see the header. */
 #define SPAN 0.499
 #define LOW_STEPS 16384.0
-#define LOW_SPAN 0.998
-#define LOW_START 0.001
 #define RADIUS_START 0.05
 #define RADIUS_SPAN 0.9
 #define DECADES 24.0
 #define FIRST_DECADE (-12.0)
 /* Between the largest radius of a position, 0.95, and that of a direction, 1. */
 #define DIRECTION_RADIUS 0.975
-/* |p|^2, and never 0. */
+/* |p|^2, and never 0; POV-Ray sees nothing beyond 1e7. */
 #define SQUARE "x*x + y*y + z*z + 1e-24"
 
 enum result position_code_pigment(struct buffer *text, bool direction, enum position_digits digits, struct error *err)
 {
     static const char *const axes[] = {"x", "y", "z"}, *const colours[] = {"red", "green", "blue"};
+    /* Of a pattern's value POV-Ray takes the fraction itself, in less time than by mod(). */
+    const double steps = digits == POSITION_DIGITS_HIGH ? 1 : LOW_STEPS;
+    const double start = RADIUS_START - RADIUS_SPAN * FIRST_DECADE / DECADES, slope = RADIUS_SPAN / DECADES / 2;
     enum result result = buffer_add_text(text, "pigment { average pigment_map {\n", err);
     for (int axis = 0; !result && axis < 3; axis++) {
-        struct buffer v = {0};
-        result = buffer_printf(&v, err, "0.5 + %.17g*%s/sqrt(" SQUARE ")", SPAN, axes[axis]);
-        if (!result && !direction)
-            result = buffer_printf(&v, err, "*min(%.17g, %.17g + %.17g*log(" SQUARE "))", RADIUS_START + RADIUS_SPAN,
-                                   RADIUS_START - RADIUS_SPAN * FIRST_DECADE / DECADES, RADIUS_SPAN / DECADES / 2);
-        if (!result && digits == POSITION_DIGITS_HIGH)
-            result = buffer_printf(text, err, "[1 function { %s }", v.data);
+        result = buffer_printf(text, err, "[1 function { %.17g + %s*", steps / 2, axes[axis]);
+        if (!result && direction)
+            result = buffer_printf(text, err, "%.17g", steps * SPAN);
         else if (!result)
-            result = buffer_printf(text, err, "[1 function { %.17g + %.17g*mod(%.17g*(%s), 1) }", LOW_START, LOW_SPAN,
-                                   LOW_STEPS, v.data);
+            result = buffer_printf(text, err, "(%.17g + %.17g*log(" SQUARE "))", steps * SPAN * start, steps * SPAN * slope);
         if (!result)
-            result = buffer_printf(text, err, " color_map { [0 rgb 0] [1 %s 3] }]\n", colours[axis]);
-        buffer_free(&v);
+            result = buffer_printf(text, err, "/sqrt(" SQUARE ") } color_map { [0 rgb 0] [1 %s 3] }]\n", colours[axis]);
     }
     return result ? result : buffer_add_text(text, "} }\n", err);
 }
 
 /* v in [0, 1] from its 16-bit code and the fraction of LOW_STEPS v. */
-static double combine(double high, double low)
+static double combine(double high, double fraction)
 {
-    double fraction = (low - LOW_START) / LOW_SPAN;
     return (round(LOW_STEPS * high - fraction) + fraction) / LOW_STEPS;
 }
 
 /* The low digits that go with v. */
 static double low_digits(double v)
 {
-    return LOW_START + LOW_SPAN * (LOW_STEPS * v - floor(LOW_STEPS * v));
+    return LOW_STEPS * v - floor(LOW_STEPS * v);
 }
 
 void position_code_unmix(struct image *high, struct image *low, const struct image *share, int channel)

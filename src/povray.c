@@ -73,9 +73,22 @@ static enum result start_job(struct povray_job *job, char *const *environment, s
 static struct povray_job *next_job(struct povray_job *jobs, int count)
 {
     for (int i = 0; i < count; i++)
-        if (!jobs[i].started && !jobs[i].held)
+        if (!jobs[i].started && !jobs[i].held && !jobs[i].dropped)
             return &jobs[i];
     return NULL;
+}
+
+static bool is_done(const struct povray_job *job)
+{
+    return job->finished || job->dropped;
+}
+
+static bool are_done(const struct povray_job *jobs, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!is_done(&jobs[i]))
+            return false;
+    return true;
 }
 
 static void report(const struct povray_job *jobs, int count, povray_progress *progress, void *context)
@@ -84,7 +97,7 @@ static void report(const struct povray_job *jobs, int count, povray_progress *pr
         return;
     double done = 0;
     for (int i = 0; i < count; i++)
-        done += jobs[i].finished ? 1 : 0.99 * jobs[i].done;
+        done += is_done(&jobs[i]) ? 1 : 0.99 * jobs[i].done;
     progress(context, done / count);
 }
 
@@ -92,9 +105,9 @@ enum result povray_run(struct povray_job *jobs, int count, int at_once, char *co
                        povray_progress *progress, void *context, int *failed, struct error *err)
 {
     enum result result = RESULT_OK;
-    int finished = 0, running = 0;
+    int running = 0;
     *failed = -1;
-    while (!result && finished < count) {
+    while (!result && !are_done(jobs, count)) {
         struct povray_job *next;
         while (!result && running < at_once && running < MAX_JOBS && (next = next_job(jobs, count))) {
             result = start_job(next, environment, err);
@@ -127,7 +140,6 @@ enum result povray_run(struct povray_job *jobs, int count, int at_once, char *co
             job->finished = true;
             job->wall_s = timings_clock_s() - job->start_s;
             running--;
-            finished++;
             if (status && !interrupt_signal()) {
                 *failed = owners[i];
                 result = error_set(err, RESULT_POVRAY, "povray failed with exit status %d in the %s pass", status,

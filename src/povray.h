@@ -17,6 +17,7 @@ struct povray_job {
     char *const *arguments; /* argv, argv[0] being the program; NULL-terminated */
     int timeout_s;          /* it is ended when it runs longer; 0: never */
     bool held;              /* doesn't start until the `ended` of another one clears this */
+    bool dropped;           /* doesn't start at all: the `ended` of another one found that it isn't needed */
     povray_ended *ended;    /* may change the jobs that haven't started; NULL: none */
     void *context;
 

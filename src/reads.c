@@ -131,7 +131,7 @@ enum result reads_collect(const struct work_folder *folder, const struct reads_p
     const char *at = (const char *)log.data, *end = at + log.size;
     for (; !result && at < end; at += strlen(at) + 1) {
         char *name;
-        noted |= !strcmp(at, "rpass.pov");
+        noted |= !strcmp(at, "rpass.inc");
         result = user_name(places, at + 1, &name, err);
         if (!result && name)
             result = add_once(at[0] == 'r' ? &reads->read : &reads->written, name, err);

@@ -9,6 +9,7 @@
 #include "scene_surfaces.h"
 #include "scene_tokens.h"
 #include "scene_unions.h"
+#include "scene_uses.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -39,7 +40,18 @@ static void note_gloss(struct scene *scene, const struct scene_file *file, int t
     note_exponent(scene, exponent);
 }
 
-/* A `reflection` makes a plain mirror unless its finish is glossy or it is the number 0. */
+/* Whether the finish at this brace calls Gloss, whatever is the case. */
+static bool has_gloss(const struct scene_file *file, int brace)
+{
+    bool gloss = false, conditional = false;
+    for (int i = brace + 1; i < file->list.tokens[brace].match; i = next_item(file, i)) {
+        gloss |= in_list(file, i, gloss_macros);
+        conditional |= file->list.tokens[i].kind == TOKEN_DIRECTIVE;
+    }
+    return gloss && !conditional;
+}
+
+/* A `reflection` makes a plain mirror unless its finish is glossy, or begins with one that is, or it is the number 0. */
 static bool is_plain_mirror(const struct scene_file *file, int token)
 {
     int brace = file->list.tokens[token].parent;
@@ -48,12 +60,9 @@ static bool is_plain_mirror(const struct scene_file *file, int token)
     bool zero = is_zero(file, token + 1);
     if (brace <= 0 || !is_word(file, brace - 1, "finish") || file->list.tokens[brace].match < 0)
         return !zero;
-    bool gloss = false, conditional = false;
-    for (int i = brace + 1; i < file->list.tokens[brace].match; i = next_item(file, i)) {
-        gloss |= in_list(file, i, gloss_macros);
-        conditional |= file->list.tokens[i].kind == TOKEN_DIRECTIVE;
-    }
-    return !zero && (!gloss || conditional);
+    bool of_glossy = has_fact(file, brace + 1, NAME_GLOSSY) && !has_fact(file, brace + 1, NAME_DULL) &&
+                     !has_fact(file, brace + 1, NAME_PARAMETER);
+    return !zero && !of_glossy && !has_gloss(file, brace);
 }
 
 /* The first assumed_gamma of a scene is the one that POV-Ray takes: which of several that is, only POV-Ray knows. */
@@ -167,7 +176,18 @@ static bool is_layered(const struct scene_file *file, int name)
            is_word(file, file->list.tokens[name + 3].match + 1, "texture");
 }
 
-static const char *const mixing_words[] = {"texture_map", "average", "blob", "texture_list", "smooth_triangle", NULL};
+static const char *const mixing_words[] = {"texture_map", "average", "texture_list", "smooth_triangle", NULL};
+
+/* Whether the components of a blob, whose opening brace this is, may have textures of their own. */
+static bool mixes_components(const struct scene_file *file, int brace)
+{
+    static const char *const looks[] = {"texture", "pigment", "normal", "finish", "material", NULL};
+    bool mixes = file->list.tokens[brace].match < 0;
+    for (int i = brace + 1; !mixes && i < file->list.tokens[brace].match; i++)
+        mixes = is_directive(file, i, "include") || (has_fact(file, i, NAME_DECLARED) && is_call(file, i)) ||
+                (file->list.tokens[i].parent != brace && in_list(file, i, looks));
+    return mixes;
+}
 
 /* `#for (X, 1, 9)` and `#read (File, X, Y)` declare, too. */
 static void note_variables(struct scene *scene, const struct scene_file *file, int token)
@@ -250,21 +270,17 @@ static enum result note_token(struct scene *scene, int index, int token, struct 
             note_fact(scene, file, name, NAME_LAYERED);
         if (value && in_list(file, name + 2, glossy_words))
             note_fact(scene, file, name, NAME_GLOSSABLE);
+        bool finish = value && is_word(file, name + 2, "finish") && opens_block(file, name + 2);
+        note_fact(scene, file, name, finish && has_gloss(file, name + 3) ? NAME_GLOSSY : NAME_DULL);
         return RESULT_OK;
     }
     note_variables(scene, file, token);
     scene->depends_on_size |= is_size(file, token);
-    if (is_word(file, token, "reflection") && is_plain_mirror(file, token))
-        scene->plain_mirrors = true;
     if (in_list(file, token, highlight_words))
         scene->highlights = true;
     if (is_word(file, token, "radiosity") && opens_block(file, token))
         scene->radiosity = true;
-    if (is_word(file, token, "ior"))
-        scene->refracts = true;
     note_limits(scene, file, token);
-    if (in_list(file, token, mixing_words))
-        scene->mixes = true;
     if (is_word(file, token, "aperture"))
         scene->focal_blur = true;
     if (shoots_photons(file, token))
@@ -439,6 +455,16 @@ static void note_clear_names(struct scene *scene, const struct scene_file *file)
         note_clear_name(scene, file, token);
 }
 
+/* Notes what matters only in what the scene uses. */
+static void note_used_token(struct scene *scene, const struct scene_file *file, int token)
+{
+    scene->plain_mirrors |= is_word(file, token, "reflection") && is_plain_mirror(file, token);
+    scene->refracts |= is_word(file, token, "ior");
+    scene->mixes |= in_list(file, token, mixing_words) || (is_word(file, token, "blob") && is_mark(file, token + 1, "{") &&
+                                                           mixes_components(file, token + 1));
+    scene->may_be_clear |= may_be_clear(file, token, token);
+}
+
 /* Notes what the user chose to be glossy. */
 static enum result note_choice(struct scene *scene, const struct gloss_choice *choice, struct error *err)
 {
@@ -519,7 +545,10 @@ enum result scene_settle(struct scene *scene, struct error *err)
 {
     scene_note_surfaces(scene);
     scene_note_facts(scene, note_clear_names);
+    scene_note_uses(scene);
     enum result result = count_clear(scene, err);
+    if (!result)
+        scene_walk_used(scene, note_used_token);
     if (!result)
         result = scene_note_unions(scene, err);
     return result ? result : note_choice(scene, scene->choice, err);

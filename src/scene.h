@@ -65,10 +65,12 @@ struct scene {
     bool glossy;           /* some finish may be glossy, by a macro or by the user's choice */
     double exponent;       /* the one exponent of all of them; negative: they differ, or aren't plain numbers */
     bool painted;          /* some exponent may be painted, by Gloss_Map */
-    bool plain_mirrors;    /* some finish may reflect without a call of Gloss */
-    bool mixes;            /* some texture may mix others: a map, an average, a blob, a mesh with a texture at each corner */
+    bool plain_mirrors;    /* some finish that is used may reflect without a call of Gloss */
+    bool mixes;            /* some texture that is used may mix others: a map, an average, a blob, a mesh with a texture at each
+                              corner */
     bool radiosity;        /* light that a mirror throws onto other things may be computed */
     bool clear_default;    /* an object without a texture may be transparent, by a #default */
+    bool may_be_clear;     /* something that is used may be transparent */
     bool refracts;         /* something has an index of refraction */
     bool highlights;       /* some finish names the size of a highlight */
     double version;        /* of the scene's first #version; 0: none */

@@ -22,6 +22,9 @@ enum name_fact {
     NAME_CALLED = 1 << 10,       /* as a macro that the scene may call, */
     NAME_UNION = 1 << 11,        /* as a union that may be taken apart, */
     NAME_WHOLE = 1 << 12,        /* as something that may not, or used so */
+    NAME_USED = 1 << 13,         /* the picture may have something of it (scene_uses.h) */
+    NAME_GLOSSY = 1 << 14,       /* it is declared as a finish with a call of Gloss, */
+    NAME_DULL = 1 << 15,         /* as anything else */
 };
 
 struct scene_name {

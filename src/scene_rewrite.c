@@ -8,6 +8,7 @@
 #include "scene_discover.h"
 #include "scene_tokens.h"
 #include "scene_unions.h"
+#include "scene_uses.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -165,22 +166,11 @@ static enum result write_photons(struct writer *writer, int first, int end, stru
     return result;
 }
 
-/* Whether leaving the tokens out would change what follows: they declare something, draw random numbers or call a
- * macro. */
-static bool has_effects(const struct writer *writer, int first, int last)
-{
-    for (int i = first; i <= last; i++)
-        if (writer->file->list.tokens[i].kind == TOKEN_DIRECTIVE || is_word(writer->file, i, "rand") ||
-            (is_mark(writer->file, i + 1, "(") && has_fact(writer->file, i, NAME_DECLARED)))
-            return true;
-    return false;
-}
-
 /* Puts `text` in place of the block `keyword { ... }` from `token` to `last`. One with effects is declared in front of
  * it (an interior_texture as a texture), so that every copy of the scene draws the same random numbers. */
 static enum result replace_block(struct writer *writer, int token, int last, const char *text, struct error *err)
 {
-    if (!has_effects(writer, token + 1, last))
+    if (!has_effects(writer->file, token + 1, last))
         return replace(writer, token, last, text, err);
     enum result result = insert_before(writer, token, "#declare povgloss_dropped = ", err);
     if (!result)
@@ -258,7 +248,7 @@ static enum result add_subscripts(const struct writer *writer, int name, const c
     const struct token *tokens = writer->file->list.tokens;
     int end = after_subscripts(writer->file, name + 1);
     enum result result = RESULT_OK;
-    if (!has_effects(writer, name + 1, end - 1))
+    if (!has_effects(writer->file, name + 1, end - 1))
         return buffer_add(text, writer->file->source.data + tokens[name].end, tokens[end - 1].end - tokens[name].end, err);
     for (int i = name + 1, index = 0; !result && i < end; i = subscript_end(writer->file, i) + 1)
         result = buffer_printf(text, err, "[%s_%d]", variable, index++);
@@ -271,7 +261,7 @@ static enum result hoist_subscripts(struct writer *writer, int before, int name,
     const struct scene_file *file = writer->file;
     const struct token *tokens = file->list.tokens;
     int end = after_subscripts(file, name + 1);
-    if (!has_effects(writer, name + 1, end - 1))
+    if (!has_effects(writer->file, name + 1, end - 1))
         return RESULT_OK;
     struct buffer text = {0};
     enum result result = insert_before(writer, before, "", err);
@@ -441,8 +431,9 @@ static enum result write_cover(struct writer *writer, int token, int last, struc
     if (result || in_texture(writer->file, token) || !writer->rules->marks || has_finish_after(writer->file, last))
         return result;
     return buffer_add_text(&writer->out,
-                           writer->rules->covers ? "povgloss_count(povgloss_own) povgloss_hide(povgloss_own) "
-                                                 : "povgloss_count(povgloss_own) ",
+                           writer->rules->covers   ? "povgloss_hide(povgloss_own) "
+                           : writer->rules->places ? "povgloss_count(povgloss_own) "
+                                                   : "",
                            err);
 }
 
@@ -456,7 +447,7 @@ static enum result move_cover(struct writer *writer, int token, int last, struct
     if (!is_word(file, pigment, "pigment") || !opens_block(file, pigment) || covered_sibling(writer, token) >= 0)
         return RESULT_OK;
     int end = file->list.tokens[pigment + 1].match;
-    if (!tracks(writer, pigment + 2, end) || has_effects(writer, pigment, end) || in_triangle(file, pigment))
+    if (!tracks(writer, pigment + 2, end) || has_effects(writer->file, pigment, end) || in_triangle(file, pigment))
         return RESULT_OK;
     writer->moved_pigment = pigment;
     enum result result = insert_before(writer, token, "#declare povgloss_cover =", err);
@@ -657,7 +648,7 @@ static enum result give_states(struct writer *writer, int token, int *next, stru
         bool element = end > i + 1;
         if (in_list(file, i, glossy_words) && opens_block(file, i) && argument_end(file, end + 1, last) >= last)
             result = buffer_add_text(&states, ", povgloss_last*1", err);
-        else if (name < 0 || after_subscripts(file, i + 1) != end || has_effects(writer, i, end - 1) ||
+        else if (name < 0 || after_subscripts(file, i + 1) != end || has_effects(writer->file, i, end - 1) ||
                  (element && !has_fact(file, i, NAME_SURFACE_ARRAY)))
             result = buffer_add_text(&states, ", povgloss_none", err);
         else
@@ -765,7 +756,7 @@ static enum result write_light(struct writer *writer, int token, int last, bool 
     bool element = is_mark(file, token + 3, "[") && !is_mark(file, after_subscripts(file, token + 3), ",");
     if (has_fact(file, token + 2, NAME_LIGHT) || element)
         return copy_to(writer, file->list.tokens[last].end, err);
-    if (!value && !has_effects(writer, token + 1, last) && !mentions(writer->file, token + 2, last, looks_like))
+    if (!value && !has_effects(writer->file, token + 1, last) && !mentions(writer->file, token + 2, last, looks_like))
         return replace(writer, token, last, "", err);
     enum result result = write_tokens(writer, token + 2, last, err);
     return result ? result : insert_before(writer, last, " fade_distance 1e-9 fade_power 20 ", err);
@@ -1101,7 +1092,7 @@ static enum result drop_items(struct writer *writer, int first, int end, const c
             result = replace_block(writer, item, item_end - 1, "", err);
         } else {
             item_end = value_before(file, item, end);
-            bool value = item_end > item, effects = value && has_effects(writer, item, item_end - 1);
+            bool value = item_end > item, effects = value && has_effects(writer->file, item, item_end - 1);
             item_end += !value;
             result = effects ? insert_before(writer, item, "#declare povgloss_dropped = ", err)
                              : replace(writer, item, item_end - 1, "", err);
@@ -1354,6 +1345,16 @@ static enum result write_opening_log(struct writer *writer, int token, struct er
                                   (int)(file->list.tokens[end - 1].end - begin), file->source.data + begin);
 }
 
+/* The last token of what the directive at `token` declares if the scene doesn't use it, else -1: POV-Ray needn't parse
+ * it. */
+static int last_unused(const struct writer *writer, int token)
+{
+    const struct scene_file *file = writer->file;
+    bool used = writer->rules->discovery || file == writer->scene->files ||
+                has_fact(file, declared_name(file, token), NAME_USED);
+    return used ? -1 : end_of_block(file, token);
+}
+
 static enum result write_tokens(struct writer *writer, int first, int end, struct error *err)
 {
     const struct scene_file *file = writer->file;
@@ -1362,7 +1363,11 @@ static enum result write_tokens(struct writer *writer, int first, int end, struc
     writer->end = end;
     for (int i = first, next; !result && i < end; i = next ? next : i + 1) {
         next = 0;
-        if (file->list.tokens[i].kind == TOKEN_DIRECTIVE) {
+        int unused = last_unused(writer, i);
+        if (unused >= 0) {
+            result = replace(writer, i, unused, "", err);
+            next = unused + 1;
+        } else if (file->list.tokens[i].kind == TOKEN_DIRECTIVE) {
             track_directive(writer, i);
             if (writer->rules->marks || writer->rules->coded)
                 result = copy_state(writer, i, err);

@@ -335,6 +335,17 @@ static inline int name_index(const struct scene_file *file, int token)
     return name ? name->index : -1;
 }
 
+/* Whether leaving the tokens out would change what follows: they declare something, draw random numbers or call a
+ * macro. */
+static inline bool has_effects(const struct scene_file *file, int first, int last)
+{
+    for (int i = first; i <= last; i++)
+        if (file->list.tokens[i].kind == TOKEN_DIRECTIVE || is_word(file, i, "rand") ||
+            (is_mark(file, i + 1, "(") && has_fact(file, i, NAME_DECLARED)))
+            return true;
+    return false;
+}
+
 /* Of a token that is no word nothing is noted. */
 static inline void note_fact(struct scene *scene, const struct scene_file *file, int token, enum name_fact fact)
 {

@@ -122,7 +122,7 @@ check "a scene from standard input, for all frames" from_stdin
 kept() {
     run "$bin/povgloss" render scene.pov "$library" "${size[@]}" +KFF2 --keep kept -o kept.png
     expect_status 0 &&
-        [ "$(echo kept/base/image*)" = "kept/base/image1.exr kept/base/image2.exr" ] && [ -s kept/endpoint/image2.png ]
+        [ "$(echo kept/base/image*)" = "kept/base/image1.exr kept/base/image2.exr" ] && [ -s kept/endpoint/image2.ppm ]
 }
 check "--keep leaves the images of all frames" kept
 tells_frames() {

@@ -70,7 +70,7 @@ cat > one-pass/povray << SH
 #!/bin/sh
 case "\$(basename "\$PWD")" in
     "\$PASS") ;;
-    exponent) exec cp "$scratch/one-pass/kept/exponent/image.png" . ;;
+    exponent) exec cp "$scratch/one-pass/kept/exponent/image.ppm" . ;;
     *) exec sleep 60 ;;
 esac
 exec $(command -v povray) "\$@"
@@ -93,7 +93,7 @@ POV
 check "a parse error in an include in a subfolder" \
     render_fails 4 "scenes/parts/wrong.inc' line 5: Parse Error" scenes/includes.pov < <(
     cat head.txt
-    printf '#include "parts/wrong.inc"\nplane { y, 0 finish { F } }\n'
+    printf '#include "parts/wrong.inc"\nplane { y, 0 finish { F } }\nobject { Part }\n'
 )
 check "a parse error in an include found by +L" fails 4 "parts/wrong.inc' line 5: Parse Error" \
     "${povgloss[@]}" render scenes/includes.pov "$library" "${size[@]}" +Lscenes --quiet -o output/picture.exr

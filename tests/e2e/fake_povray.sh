@@ -8,11 +8,12 @@ cat > scene.pov << 'POV'
 #include "povgloss.inc"
 plane { y, 0 finish { reflection 0.5 Gloss(50) } }
 POV
-oiiotool --create 8x6 3 -d half -o good.exr --create 8x6 3 -d uint16 -o good.png
-oiiotool --create 9x6 3 -d half -o wrong.exr --create 9x6 3 -d uint16 -o wrong.png
-head -c 60 good.png > cut.png
+oiiotool --create 8x6 3 -d half -o good.exr --create 9x6 3 -d half -o wrong.exr
+{ printf 'P6 8 6 65535\n'; head -c $((8 * 6 * 6)) /dev/zero; } > good.ppm
+{ printf 'P6 9 6 65535\n'; head -c $((9 * 6 * 6)) /dev/zero; } > wrong.ppm
+head -c 60 good.ppm > cut.ppm
 head -c 200 good.exr > cut.exr
-printf 'not an image\n' > text.png
+printf 'not an image\n' > text.ppm
 
 # draw OPTION...: with a povray whose commands are on standard input; $folder is its pass, $image its image's name.
 draw() {
@@ -20,7 +21,7 @@ draw() {
         printf '#!/bin/sh\nhere=%q\n' "$scratch"
         cat << 'SH'
 folder=$(basename "$PWD") image=image.exr
-for argument; do case $argument in *image.png) image=image.png ;; esac; done
+for argument; do case $argument in *image.ppm) image=image.ppm ;; esac; done
 good() { cp "$here/good.${image#image.}" "$image"; }
 SH
         cat
@@ -54,7 +55,7 @@ warns_of_version() {
 }
 check "images of the right kind: the fake is good enough" works <<< 'good'
 check "exit status 1 with a message" fails 4 "Parse Error: Hello" << 'SH'
-echo "File 'pass.pov' line 3: Parse Error: Hello" >&2
+echo "File 'pass.inc' line 3: Parse Error: Hello" >&2
 exit 1
 SH
 check "exit status 1 without a word" fails 4 "exit status 1" <<< 'exit 1'
@@ -68,25 +69,25 @@ check "a pass fails while others run on" fails 4 "exit status 7 in the specular 
 [ "$folder" != exponent ] || { good; exit; }
 exec sleep 300
 SH
-check "nothing written, exit status 0" fails 3 "exponent/image.png: cannot be opened" <<< 'exit 0'
+check "nothing written, exit status 0" fails 3 "/image.ppm: cannot be opened" <<< 'exit 0'
 check "one image isn't written" fails 3 "reflectance/image.exr: cannot be opened" << 'SH'
 [ "$folder" = reflectance ] || good
 SH
-check "a PNG that ends early" fails 3 "position/image.png: " << 'SH'
+check "a PPM that ends early" fails 3 "position/image.ppm: " << 'SH'
 good
-[ "$folder" != position ] || cp "$here/cut.png" image.png
+[ "$folder" != position ] || cp "$here/cut.ppm" image.ppm
 SH
 check "an EXR that ends early" fails 3 "specular/image.exr: " << 'SH'
 good
 [ "$folder" != specular ] || cp "$here/cut.exr" image.exr
 SH
-check "a text in place of a PNG" fails 3 "direction/image.png: not a PNG" << 'SH'
+check "a text in place of a PPM" fails 3 "direction/image.ppm: not a PPM" << 'SH'
 good
-[ "$folder" != direction ] || cp "$here/text.png" image.png
+[ "$folder" != direction ] || cp "$here/text.ppm" image.ppm
 SH
 check "an error in POV-Ray's own picture names the user's line" fails 4 "File 'scene.pov' line 2: Parse Error" << 'SH'
 good
-[ "$folder" != own ] || { echo "File 'pass.pov' line 2: Parse Error: Hello" >&2; exit 1; }
+[ "$folder" != own ] || { echo "File 'pass.inc' line 2: Parse Error: Hello" >&2; exit 1; }
 SH
 check "an error in a file from a library folder names the user's file" fails 4 "File 'a.inc' line 2: Parse Error" << 'SH'
 good
@@ -107,7 +108,7 @@ head -c 30000000 /dev/zero | tr '\0' x >&2
 exit 3
 SH
 check "an error message longer than a line should be" fails 4 "Parse Error" << 'SH'
-{ echo "File 'pass.pov' line 3: Parse Error:"; head -c 100000 /dev/zero | tr '\0' x; echo; } >&2
+{ echo "File 'pass.inc' line 3: Parse Error:"; head -c 100000 /dev/zero | tr '\0' x; echo; } >&2
 exit 1
 SH
 check "messages with bytes of no text" fails 4 "exit status 1" << 'SH'
@@ -141,7 +142,7 @@ check "POV-Ray 3.6 fails, and is named" fails 4 "this is POV-Ray 3.6.1, and povg
 printf 'Persistence of Vision(tm) Ray Tracer Version 3.6.1 (g++)\nFailed to parse command-line option\n' >&2
 exit 1
 SH
-check "standard error closed early, then work" fails 3 "exponent/image.png: cannot be opened" << 'SH'
+check "standard error closed early, then work" fails 3 "/image.ppm: cannot be opened" << 'SH'
 exec 2>&-
 sleep 0.3
 SH

@@ -17,7 +17,7 @@ replays_seeds() {
     run bounded "$replays/replay_$1" "${files[@]}"
     expect_status 0 && [ "$(cat out)" = "${#files[@]} inputs" ] || show_run
 }
-for target in exr png scene command filter; do
+for target in exr ppm scene command filter; do
     check "seeds__${target}__read_or_refused" replays_seeds "$target"
 done
 

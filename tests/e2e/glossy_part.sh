@@ -40,7 +40,7 @@ parts() {
     for pass in position position-low; do
         is_part part $pass 5 30 && is_part whole $pass 60 100 || return 1
     done
-    is_part part base 90 100 && is_part part direction 90 100
+    is_part part base 90 100
 }
 check "passes__small_glossy_sphere__its_rectangle" parts
 check "subsampled__of_part_and_whole__the_same" same 0.4 +A0.3 --subsample 4

@@ -40,6 +40,21 @@ probe() {
     run "$bin/povgloss" probe "$scene" "${switches[@]}" --grid 4 --error 0.5 --quiet --timings -o probes.csv
     expect_status 0 && rows err scene povray:mirror povray:probe total
 }
+# The rays of a perspective camera are known by few of them; those of another one, of a scene in which the size matters
+# and of a part of the picture are all rendered.
+views() {
+    sed 's/^camera {/camera { fisheye/' "$scene" > fisheye.pov
+    sed 's/^camera {/#declare Pixels = image_width*image_height; camera {/' "$scene" > size.pov
+    local options=("${switches[@]}" --quiet --no-check --timings -o passes.exr) other
+    run "$bin/povgloss" passes "$scene" "${options[@]}"
+    expect_status 0 && rows err povray:view && ! grep -q "^povray:direction" err || return 1
+    for other in "fisheye.pov" "size.pov" "$scene +SR9 +ER20"; do
+        # shellcheck disable=SC2086 # file and switches
+        run "$bin/povgloss" passes $other "${options[@]}"
+        expect_status 0 && rows err povray:direction || return 1
+    done
+}
+check "passes__perspective_camera__no_directions" views
 unasked() {
     run "$bin/glossfilter" passes.exr -o picture.png
     expect_status 0 && [ ! -s err ] || { show_run; return 1; }

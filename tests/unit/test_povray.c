@@ -172,6 +172,33 @@ static void run__a_held_job__starts_when_it_is_let_go(void **state)
     povray_jobs_free(chain.jobs.jobs, chain.jobs.count);
 }
 
+static enum result drop_first(void *context, struct error *err)
+{
+    struct chain *chain = context;
+    (void)err;
+    chain->jobs.jobs[0].dropped = true;
+    return RESULT_OK;
+}
+
+static void run__a_held_job_that_is_dropped__ends_without_it(void **state)
+{
+    (void)state;
+    static struct chain chain;
+    static struct progress progress;
+    struct error err;
+    int failed;
+    add_job(&chain.jobs, "echo first >> order");
+    add_job(&chain.jobs, "echo second >> order");
+    chain.jobs.jobs[0].held = true;
+    chain.jobs.jobs[1].ended = drop_first;
+    chain.jobs.jobs[1].context = &chain;
+    assert_ok(run_jobs(&chain.jobs, 2, &progress, &failed, &err), err);
+    assert_false(chain.jobs.jobs[0].started);
+    assert_string_equal(run("cat order"), "second\n");
+    unlink(in_scratch("order"));
+    povray_jobs_free(chain.jobs.jobs, chain.jobs.count);
+}
+
 static enum result refuse(void *context, struct error *err)
 {
     (void)context;
@@ -480,6 +507,7 @@ int main(void)
         cmocka_unit_test(run__at_once__never_more),
         cmocka_unit_test(run__one_at_a_time__in_their_order),
         cmocka_unit_test(run__a_held_job__starts_when_it_is_let_go),
+        cmocka_unit_test(run__a_held_job_that_is_dropped__ends_without_it),
         cmocka_unit_test(run__refused_after_a_job__the_others_are_ended),
         cmocka_unit_test(run__progress_lines__fractions_of_all_jobs),
         cmocka_unit_test(run__progress_line_in_two_pieces__not_misread),

@@ -408,7 +408,7 @@ static void copy__pigments_that_may_be_transparent__looked_at_by_povray(void **s
         snprintf(source, sizeof source, "sphere { 0, 1 %s }", clear[i]);
         snprintf(coded, sizeof coded, "sphere { 0, 1 #declare povgloss_cover = %s; povgloss_cover_of_object(0) }", clear[i]);
         snprintf(seen, sizeof seen,
-                 "sphere { 0, 1 #declare povgloss_cover = %s; povgloss_cover_of_object(0) povgloss_count(povgloss_own) "
+                 "sphere { 0, 1 #declare povgloss_cover = %s; povgloss_cover_of_object(0) "
                  "povgloss_hide(povgloss_own) }",
                  clear[i]);
         const struct rewriting cases[] = {{MIRROR, source, seen}, {REFLECTANCE, source, seen}, {CODED, source, coded},
@@ -420,7 +420,7 @@ static void copy__pigments_that_may_be_transparent__looked_at_by_povray(void **s
          "sphere { 0, 1 " TEXTURE COVER("pigment { rgbt 1 }", "texture") "povgloss_hide(povgloss_last) } }"},
         {MIRROR, "pigment { uv_mapping image_map { \"a.png\" } }",
          "#declare povgloss_cover = pigment { uv_mapping image_map { \"a.png\" } }; povgloss_cover_of_object(1) "
-         "povgloss_count(povgloss_own) povgloss_hide(povgloss_own) "},
+         "povgloss_hide(povgloss_own) "},
         /* By way of other names, also backwards; parameters of macros may be anything. */
         {CODED, "#declare A = B; #declare B = rgbt 1; pigment { A }",
          "#declare A = B; #ifdef (povgloss_of_1) #declare povgloss_of_0 = povgloss_of_1; #end #declare B = rgbt 1; " COVER("pigment { A }", "object")},
@@ -1069,6 +1069,10 @@ static void load__plain_mirrors__reflection_without_gloss(void **state)
         {"finish { reflection R }", true},
         {"sphere { 0, 1 photons { target reflection on refraction off } }", false},
         {"#macro R() reflection 0.3 #end", true},
+        {"#declare F = finish { Gloss(9) } finish { F reflection 0.2 }", false},
+        {"#declare F = finish { Gloss(9) } #declare F = finish { phong 1 } finish { F reflection 0.2 }", true},
+        {"#declare F = finish { Gloss(9) } #macro M(F) finish { F reflection 0.2 } #end", true},
+        {"#declare F = finish { #if (X) Gloss(9) #end } finish { F reflection 0.2 }", true},
         {"// finish { reflection 1 }", false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -1078,6 +1082,83 @@ static void load__plain_mirrors__reflection_without_gloss(void **state)
             fail_msg("%s", cases[i].text);
         scene_free(&scene);
     }
+}
+
+/* What a library declares counts only if the scene uses it. */
+static void load__uses__of_a_library_by_name(void **state)
+{
+    (void)state;
+    static const char library[] =
+        "#declare Map = texture { gradient x texture_map { [0 T] [1 T] } }\n"
+        "#declare Metal = finish { reflection 0.5 }\n"
+        "#declare Silver = texture { finish { Metal } }\n"
+        "#macro Glass(X) #declare Own = 2; material { texture { pigment { rgbt X } } interior { ior 1.5 } } #end\n"
+        "#macro Bottle() object { Any material { Glass(1) } } #end\n";
+    static const struct {
+        const char *text;
+        bool mixes, plain_mirrors, may_be_clear, refracts;
+    } cases[] = {
+        {"sphere { 0, 1 }", false, false, false, false},
+        {"sphere { 0, 1 texture { Map } }", true, false, false, false},
+        {"sphere { 0, 1 texture { Silver } }", false, true, false, false},
+        {"Bottle()", false, false, true, true},
+        {"#declare Unused = texture { Map }", true, false, false, false},
+        {"#include Name", true, true, true, true},
+        {"blob { sphere { C, 1, 2 rotate y } cylinder { 0, 1, 2, 3 } pigment { rgb 1 } }", false, false, false, false},
+        {"blob { sphere { C, 1, 2 pigment { rgb 1 } } }", true, false, false, false},
+        {"blob { sphere { C, 1, 2 Bottle() } }", true, false, true, true},
+        {"blob { #include \"parts.inc\" }", true, false, false, false},
+    };
+    /* A file that is another one each time. */
+    static const char log[] = "write 0 1 parts.inc\ninclude 0 3 parts.inc\nwrite 0 1 parts.inc\ninclude 0 3 parts.inc\nend\n";
+    write_text("library.inc", library);
+    write_text("parts.inc", "");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[200];
+        struct scene scene;
+        struct error err;
+        snprintf(text, sizeof text, "#include \"library.inc\"\n%s", cases[i].text);
+        write_text("scene.pov", text);
+        assert_ok(load(&scene, "scene.pov", &err), err);
+        if (scene.needs_discovery) {
+            bool again;
+            assert_ok(discover(&scene, log, &again, &err), err);
+            assert_ok(scene_settle(&scene, &err), err);
+        }
+        if (scene.mixes != cases[i].mixes || scene.plain_mirrors != cases[i].plain_mirrors ||
+            scene.may_be_clear != cases[i].may_be_clear || scene.refracts != cases[i].refracts)
+            fail_msg("%s: %d %d %d %d", cases[i].text, scene.mixes, scene.plain_mirrors, scene.may_be_clear, scene.refracts);
+        scene_free(&scene);
+    }
+    run("rm library.inc parts.inc");
+}
+
+static void copy__library__without_the_blocks_that_the_scene_does_not_use(void **state)
+{
+    (void)state;
+    static const char library[] =
+        "#declare Chrome = finish {\n  reflection 1\n};\n"
+        "#declare Deep = finish { phong 1 } #declare Shell = texture { finish { Deep } }\n"
+        "#declare Called = function { x } #declare Calling = function(x) { Called(x) }\n"
+        "#declare Random = texture { pigment { rgb rand(S) } }\n"
+        "#macro Unused() object { Part } #end #declare Part = sphere { 0, 1 }\n"
+        "#ifndef (Maybe) #declare Maybe = sphere { 0, 1 } #end #declare Red = rgb x;\n";
+    struct scene scene;
+    struct error err;
+    write_text("library.inc", library);
+    write_text("scene.pov", "#include \"library.inc\"\nsphere { 0, 1 texture { Shell } }");
+    assert_ok(load(&scene, "scene.pov", &err), err);
+    char *text = copy_text(&scene, SCENE_COPY_PLAIN, 1);
+    assert_string_equal(text,
+                        "\n\n\n"
+                        "#declare Deep = finish { phong 1 } #declare Shell = texture { finish { Deep } }\n"
+                        "#declare Called = function { x } #declare Calling = function(x) { Called(x) }\n"
+                        "#declare Random = texture { pigment { rgb rand(S) } }\n"
+                        "#macro Unused() object { Part } #end \n"
+                        "#ifndef (Maybe) #declare Maybe = sphere { 0, 1 } #end #declare Red = rgb x;\n");
+    free(text);
+    scene_free(&scene);
+    unlink(in_scratch("library.inc"));
 }
 
 static void load__atmosphere__at_the_top_level_only(void **state)
@@ -1397,6 +1478,8 @@ int main(void)
         cmocka_unit_test(copy__highlights__noted_for_automatic_gloss),
         cmocka_unit_test(load__povgloss_inc__its_own_calls_do_not_count),
         cmocka_unit_test(load__plain_mirrors__reflection_without_gloss),
+        cmocka_unit_test(load__uses__of_a_library_by_name),
+        cmocka_unit_test(copy__library__without_the_blocks_that_the_scene_does_not_use),
         cmocka_unit_test(load__atmosphere__at_the_top_level_only),
         cmocka_unit_test(load__names__of_all_files_once),
         cmocka_unit_test(names__saved_and_restored__for_the_second_copy),
