@@ -31,8 +31,8 @@ static const double pi = 3.14159265358979324;
 /* In units of the taps, whose farthest position is at 2^20: 1e-15 of that. */
 static const double least_distance = 1e-9;
 
-/* How many times larger tan^2(theta) is of what hides an endpoint: twice the angle. What is near the rim of a thing that
- * stands before it is often seen past its other side. */
+/* How many times larger tan^2(theta) is of what hides an endpoint: twice the angle. What is near the rim of a thing
+ * that stands before it is often seen past its other side. */
 static const float hidden_ratio = 4.0f;
 
 /* See help_needed(); so little that it isn't worth its time is taken off. */
@@ -577,12 +577,12 @@ static double clamp(double value, double low, double high)
     return fmax(low, fmin(value, high));
 }
 
-/* Mean radiance of lane l's lobe, R, G, B, by what is seen of it: the value at its middle of the plane of weighted least
- * squares in u and v,
+/* Mean radiance of lane l's lobe, R, G, B, by what is seen of it: the value at its middle of the plane of weighted
+ * least squares in u and v,
  *   minimise sum f (L0 - value - slope . (u, v))^2 + ridge variance sum f |slope|^2,
- * with variance that of u in the whole lobe. Where the lobe is evenly covered that is the mean of L0; where it is covered
- * on one side the mean is that side's (Fan, "Design-adaptive nonparametric regression", 1992). Within the range of what is
- * seen. */
+ * with variance that of u in the whole lobe. Where the lobe is evenly covered that is the mean of L0; where it is
+ * covered on one side the mean is that side's (Fan, "Design-adaptive nonparametric regression", 1992). Within the range
+ * of what is seen. */
 static void fit_plane(const struct filter_moments *seen, int l, double phong, double value[3])
 {
     double m[FILTER_MOMENTS];

@@ -47,9 +47,10 @@ struct filter_options filter_options_default(void);
  * results, at most 3 pixels away; 0 elsewhere. measure, where not NULL, is allocated too, 1 channel, 0 where not
  * glossy: of the paper the radius of equation (5) in pixels, of the best filter the confidence.
  *
- * FILTER_MODE_PAPER: equation (1). FILTER_MODE_BEST: over the pixels whose endpoints b' the pixel's own a sees, with f =
- * max(cos^p(theta) - (1 - energy), 0) times the solid angle at a of the area that b' stands for, the value of L0 at theta
- * = 0 by a plane fitted to it with the weights f (within the range of what is seen; without the fit, sum f L0 / sum f).
+ * FILTER_MODE_PAPER: equation (1). FILTER_MODE_BEST: over the pixels whose endpoints b' the pixel's own a sees, with f
+ * = max(cos^p(theta) - (1 - energy), 0) times the solid angle at a of the area that b' stands for, the value of L0 at
+ * theta = 0 by a plane fitted to it with the weights f, within the range of what is seen (without the fit, sum f L0 /
+ * sum f).
  * - That area: of the pixel's ray, the cross product of its shifts at b' to the next pixel across and down (of the two
  *   neighbours on an axis the one that shifts it less). From a it is the area over the distance from a squared, less
  *   where that comes near a hemisphere: A / (r^2 + A / 2 pi).

@@ -92,8 +92,8 @@ struct angle {
 
 /* Of lane l's tap; `tap` is the index of lane 0's in the planes. `mixed`: the lane looks for itself whether the tap is
  * of its own kind and not near. */
-ALWAYS_INLINE struct angle tap_angle(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap, int l,
-                                     bool mixed)
+ALWAYS_INLINE struct angle tap_angle(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
+                                     int l, bool mixed)
 {
     const float *bx = taps->planes[FILTER_PLANE_X] + tap;
     const float *by = taps->planes[FILTER_PLANE_Y] + tap;
@@ -372,10 +372,10 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
         t -= lanes->blind[l];
         least[l] = t < least[l] ? t : least[l];
         float place = c / (c * c + qq + FLT_MIN);
-        float u = angle.x * lanes->across[0][0][l] + angle.y * lanes->across[0][1][l] + angle.z * lanes->across[0][2][l];
-        float v = angle.x * lanes->across[1][0][l] + angle.y * lanes->across[1][1][l] + angle.z * lanes->across[1][2][l];
-        u *= place;
-        v *= place;
+        float u = place * (angle.x * lanes->across[0][0][l] + angle.y * lanes->across[0][1][l] +
+                           angle.z * lanes->across[0][2][l]);
+        float v = place * (angle.x * lanes->across[1][0][l] + angle.y * lanes->across[1][1][l] +
+                           angle.z * lanes->across[1][2][l]);
         float fu = f * u, fv = f * v, sum = red[l] + green[l] + blue[l];
         sums[FILTER_MOMENT_R][l] += f * red[l];
         sums[FILTER_MOMENT_G][l] += f * green[l];
@@ -452,7 +452,7 @@ typedef bool see_columns_function(const struct filter_taps *taps, const struct f
 #define DEFINE_SEE(name, narrow, mixed, nothing)                                                                       \
     __attribute__((noinline)) static bool name(const struct filter_taps *taps, const struct filter_lanes *lanes,       \
                                                int first, int last, int dy, state *here, state *above,                 \
-                                               struct filter_moments *sums)                                               \
+                                               struct filter_moments *sums)                                            \
     {                                                                                                                  \
         return see_columns(taps, lanes, first, last, dy, narrow, mixed, nothing, here, above, sums);                   \
     }

@@ -263,7 +263,8 @@ UNUSED static double oracle_area(const struct gbuffer *gbuffer, int x, int y)
                 continue;
             oracle_direction(gbuffer, u, v, u, v, moved);
             for (int i = 0; i < 3; i++) {
-                double from = (double)image_row(&gbuffer->position, i, v)[u] - (double)image_row(&gbuffer->position, i, y)[x];
+                const struct image *position = &gbuffer->position;
+                double from = (double)image_row(position, i, v)[u] - (double)image_row(position, i, y)[x];
                 bool is_position = image_row(&gbuffer->endpoint, 3, y)[x] > 0;
                 moved[i] = sign * ((is_position ? from : 0) + distance * (moved[i] - own[i]));
                 along += moved[i] * own[i];
@@ -321,8 +322,9 @@ UNUSED static double oracle_gradient(const struct gbuffer *gbuffer, int x, int y
 
 /* The best filter at a glossy pixel, ring by ring over the whole picture; radius is that of the pool, equation (5).
  * `ways`: width * height doubles, `areas` oracle_area of every pixel. Returns the confidence. */
-UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const struct filter_options *options, double radius, const double *areas, double *ways,
-                                       int x, int y, double colour[3])
+UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const struct filter_options *options,
+                                       double radius, const double *areas, double *ways, int x, int y,
+                                       double colour[3])
 {
     const int width = gbuffer->phong.width, height = gbuffer->phong.height;
     const double pi = 3.14159265358979324, floor_weight = 0.001;
