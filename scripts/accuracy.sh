@@ -2,7 +2,8 @@
 # The filters against the truth (`povgloss probe`), with and without each part of the best one: a table for README.md.
 # RMSE of the blurred reflection at the probes, linear light; time of glossfilter, median of five, files included.
 # usage: scripts/accuracy.sh [SCENE.pov ...]
-# BIN: folder of the programs; OUT: scratch folder, kept; PHONG: exponents; SIZE: POV-Ray's switches; GRID: of the probes
+# BIN: folder of the programs; OUT: scratch folder, kept; PHONG: exponents; SIZE: POV-Ray's switches; GRID: of the
+# probes; MARGIN: of the passes
 set -eu
 bin=${BIN:-build/bin} out=${OUT:-build/accuracy} grid=${GRID:-16}
 read -ra exponents <<< "${PHONG:-30 100 300 1000}"
@@ -11,7 +12,7 @@ read -ra size <<< "${SIZE:-+W320 +H240}"
 mkdir -p "$out"
 
 settings=('no blur|--phong inf' 'paper|--mode paper' 'best|' 'best without density|--without density'
-    'best without visibility|--without visibility' 'best without pool|--without pool')
+    'best without visibility|--without visibility' 'best without pool|--without pool' 'best without fit|--without fit')
 
 filter() { # SCENE SETTING P
     local options=()
@@ -33,7 +34,8 @@ printf '| scene, p |'; printf ' %s |' "${settings[@]%|*}" 'time paper, ms' 'time
 printf '|---|'; printf -- '---|%.0s' "${settings[@]}" 1 2; echo
 for path; do
     scene=$(basename "$path" .pov)
-    [ -e "$out/$scene.exr" ] || "$bin/povgloss" passes "$path" "${size[@]}" --quiet -o "$out/$scene.exr"
+    [ -e "$out/$scene.exr" ] || "$bin/povgloss" passes "$path" "${size[@]}" --margin "${MARGIN:-0}" --quiet \
+        -o "$out/$scene.exr"
     [ -e "$out/$scene.csv" ] || "$bin/povgloss" probe "$path" "${size[@]}" --grid "$grid" \
         "${exponents[@]/#/--phong=}" --quiet -o "$out/$scene.csv"
     for p in "${exponents[@]}"; do

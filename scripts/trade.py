@@ -17,7 +17,7 @@ BIN = os.path.abspath(os.environ.get('BIN', 'build/bin'))
 OUT = os.path.abspath(os.environ.get('OUT', 'build/trade'))
 WIDTH, HEIGHT = 240, 180
 SIZE = [f'+W{WIDTH}', f'+H{HEIGHT}']
-ALL, TRADE = (30, 100, 300, 1000), (100, 1000)
+ALL, TRADE = (30, 100, 300, 1000, 10000), (100, 1000)
 RAYS, BRUTE, NORMALS = (1, 4, 16), (4, 16, 64), (4, 16, 64)
 EXAMPLES = '/usr/share/doc/povray/examples/advanced/'
 BUMPS = 3.3  # bump_size^2 * p: at normal incidence the bumps' lobe then has the mean cosine of cos^p
@@ -37,9 +37,13 @@ def read(path, group):
         return np.stack([file.channels()[group + c].pixels.astype(np.float32) for c in 'RGB'], -1)
 
 
+ERRORS = ('rmse', 'p95', 'largest', 'relative_mse', 'bias')  # relative: over value^2 + 0.01; bias: the signed mean
+
+
 def errors(image, probes):
     difference = image[probes['y'], probes['x']] - probes['value']
-    return np.sqrt((difference ** 2).mean())
+    return (np.sqrt((difference ** 2).mean()), np.percentile(abs(difference), 95), abs(difference).max(),
+            (difference ** 2 / (probes['value'] ** 2 + 0.01)).mean(), difference.mean())
 
 
 class Scene:
@@ -54,7 +58,8 @@ class Scene:
         return timed(f'{BIN}/povgloss', command, self.path, *SIZE, *self.options, '--quiet', *options)
 
     def note(self, p, method, n, seconds, image):
-        self.rows.append((self.name, p, method, n, round(seconds, 3), round(float(errors(image, self.probes[p])), 5)))
+        found = [round(float(error), 5) for error in errors(image, self.probes[p])]
+        self.rows.append((self.name, p, method, n, round(seconds, 3), *found))
         print(*self.rows[-1], flush=True)
 
     def prepare(self):
@@ -108,7 +113,7 @@ class Scene:
 
     def measure(self):
         if os.path.exists(f'{self.folder}/rows.csv'):
-            self.rows = [(r[0], int(r[1]), r[2], int(r[3]), float(r[4]), float(r[5]))
+            self.rows = [(r[0], int(r[1]), r[2], int(r[3]), *map(float, r[4:]))
                          for r in csv.reader(open(f'{self.folder}/rows.csv'))]
             return
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -225,7 +230,7 @@ def main():
         names.append(scene.name)
     with open('docs/trade.csv', 'w') as file:
         writer = csv.writer(file, lineterminator='\n')
-        writer.writerow(['scene', 'phong', 'method', 'samples', 'cpu_seconds', 'rmse'])
+        writer.writerow(['scene', 'phong', 'method', 'samples', 'cpu_seconds', *ERRORS])
         writer.writerows(rows)
     draw(rows, names)
     tables = {'filters': table_filters(rows, names), 'trade': table_trade(rows, names), 'speed': table_speed(rows, names)}

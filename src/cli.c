@@ -135,7 +135,7 @@ static enum result set_mode(const char *name, const char *value, struct cli_filt
 
 static enum result set_without(const char *name, const char *value, struct cli_filter *options, struct error *err)
 {
-    static const char *const words[] = {"density", "visibility", "pool", NULL};
+    static const char *const words[] = {"density", "visibility", "pool", "fit", NULL};
     int chosen;
     enum result result = choose(name, value, words, &chosen, err);
     if (result == RESULT_OK)
@@ -266,7 +266,7 @@ const char cli_filter_help[] =
     "                       paper 0.99)\n"
     "  --max-angle DEG      limit of the lobe's half-angle, up to 90 (default 90)\n"
     "  --max-radius PX      limit of the window's radius; 0: none (default)\n"
-    "  --without W          best: leave out density, visibility or pool, to see what it is worth; may be\n"
+    "  --without W          best: leave out density, visibility, pool or fit, to see what it is worth; may be\n"
     "                       given again\n"
     "Filter of --mode paper:\n"
     "  --weights W          exact (default), table (within 0.003 %), or gauss in place of the lobe\n"

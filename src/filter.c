@@ -31,12 +31,15 @@ static const double pi = 3.14159265358979324;
 /* In units of the taps, whose farthest position is at 2^20: 1e-15 of that. */
 static const double least_distance = 1e-9;
 
-/* How many times larger tan^2(theta) is of what hides an endpoint: 10 % of the angle are left to the digits of the
- * positions and to bumps. */
-static const float hidden_ratio = 1.21f;
+/* How many times larger tan^2(theta) is of what hides an endpoint: twice the angle. What is near the rim of a thing
+ * that stands before it is often seen past its other side. */
+static const float hidden_ratio = 4.0f;
 
 /* See help_needed(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 16, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.02;
+
+/* Of fit_plane() and dim_unseen(). */
+static const double ridge = 0.3, even_contrast = 3;
 
 struct filter {
     const struct gbuffer *gbuffer;
@@ -135,7 +138,7 @@ static void scales_find(struct filter *filter)
             }
         }
     filter->length_scale = coordinate > 0 ? ldexp(1, 20 - ilogb(coordinate)) : 1;
-    const bool extreme = radiance > 0x1p100 || (radiance > 0 && radiance < 0x1p-20);
+    const bool extreme = radiance > 0x1p50 || (radiance > 0 && radiance < 0x1p-20);
     filter->radiance_scale = extreme ? ldexp(1, -ilogb(radiance)) : 1;
 }
 
@@ -224,21 +227,33 @@ static bool is_inside(const struct filter *filter, int x, int y)
     return x >= 0 && y >= 0 && x < filter->taps.width && y < filter->taps.height;
 }
 
-/* Change of the direction from (x, y)'s a to the endpoints from that of (x, y) to that of a neighbour, before and after
- * it on one axis: the smaller of the two, for the larger may leap to another thing. Its length; infinite where neither
+/* How far the ray of a glossy pixel moves across itself at its endpoint, to the next pixel on one axis: that of a lies
+ * on the mirror, that of the direction is times the distance (for a direction it is the direction's alone). Of the two
+ * neighbours the one that moves it less, for the other may be on another mirror. Its length; infinite where neither
  * neighbour is glossy. */
-static double direction_step(const struct filter *filter, const float a[3], int x, int y, int right, int down,
-                             double step[3])
+static double ray_step(const struct filter *filter, int x, int y, int right, int down, double step[3])
 {
+    const bool is_position = *tap_at(filter, FILTER_PLANE_W, x, y) > 0;
+    float a[3];
     double own[3], least = INFINITY;
-    direction_to(filter, a, x, y, own);
+    position_at(filter, x, y, a);
+    const double distance = direction_to(filter, a, x, y, own);
     for (int sign = -1; sign <= 1; sign += 2) {
         int u = x + sign * right, v = y + sign * down;
-        double other[3], square = 0;
-        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v) || direction_to(filter, a, u, v, other) == 0)
+        float position[3];
+        double other[3], along = 0, square = 0;
+        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
+            continue;
+        position_at(filter, u, v, position);
+        if (direction_to(filter, position, u, v, other) == 0)
             continue;
         for (int i = 0; i < 3; i++) {
-            other[i] = sign * (other[i] - own[i]);
+            double moved = is_position ? (double)position[i] - (double)a[i] : 0;
+            other[i] = sign * (moved + distance * (other[i] - own[i]));
+            along += other[i] * own[i];
+        }
+        for (int i = 0; i < 3; i++) {
+            other[i] -= along * own[i];
             square += other[i] * other[i];
         }
         if (square >= least)
@@ -249,27 +264,27 @@ static double direction_step(const struct filter *filter, const float a[3], int 
     return sqrt(least);
 }
 
-/* Area across the ray that a glossy pixel stands for at its endpoint; for a direction its solid angle. Without
+/* Area across the ray that a glossy pixel stands for at its endpoint (Igehy, "Tracing ray differentials", 1999); for a
+ * direction its solid angle. What neighbours' rays meet has no part in it: they may leap to another thing. Without
  * neighbours on one axis it is a square, without any it is next to nothing. */
 static double area_at(const struct filter *filter, int x, int y)
 {
-    const double least = 1e-12;
     float a[3];
-    double own[3], across[3] = {0}, down[3] = {0}, solid;
+    double own[3], across[3] = {0}, down[3] = {0}, area;
     position_at(filter, x, y, a);
-    double distance = direction_to(filter, a, x, y, own);
-    double width = direction_step(filter, a, x, y, 1, 0, across), height = direction_step(filter, a, x, y, 0, 1, down);
+    const double distance = direction_to(filter, a, x, y, own), least = 1e-12 * distance * distance;
+    double width = ray_step(filter, x, y, 1, 0, across), height = ray_step(filter, x, y, 0, 1, down);
     if (filter->options->without & FILTER_WITHOUT_DENSITY) {
-        solid = 1e-6;
+        area = 1e-6 * distance * distance;
     } else if (isinf(width) || isinf(height)) {
         double side = fmin(width, height);
-        solid = isinf(side) ? 0 : side * side;
+        area = isinf(side) ? 0 : side * side;
     } else {
         double normal[3] = {across[1] * down[2] - across[2] * down[1], across[2] * down[0] - across[0] * down[2],
                             across[0] * down[1] - across[1] * down[0]};
-        solid = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+        area = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     }
-    return fmax(solid, least) * distance * distance;
+    return fmax(area, least);
 }
 
 static void areas_fill(void *context, int first, int end)
@@ -400,6 +415,24 @@ static double slope_of(enum filter_shape shape, double phong)
     return phong / 2;
 }
 
+/* Two axes at right angles to a lane's direction. */
+static void across_axes(const double d[3], struct filter_lanes *lanes, int l)
+{
+    int least = fabs(d[0]) < fabs(d[1]) ? 0 : 1;
+    if (fabs(d[2]) < fabs(d[least]))
+        least = 2;
+    const int i = (least + 1) % 3, j = (least + 2) % 3;
+    const double length = hypot(d[i], d[j]);
+    double axis[3] = {0};
+    axis[i] = -d[j] / length;
+    axis[j] = d[i] / length;
+    for (int k = 0; k < 3; k++) {
+        const int next = (k + 1) % 3, last = (k + 2) % 3;
+        lanes->across[0][k][l] = (float)axis[k];
+        lanes->across[1][k][l] = (float)(d[next] * axis[last] - d[last] * axis[next]);
+    }
+}
+
 /* Fills lane l with pixel (x, y). False: nothing to sum, the result is L0. */
 static bool lane_fill(const struct filter *filter, int x, int y, int l, struct filter_lanes *lanes)
 {
@@ -416,6 +449,7 @@ static bool lane_fill(const struct filter *filter, int x, int y, int l, struct f
     }
     for (int i = 0; i < 4; i++)
         lanes->b[i][l] = *tap_at(filter, FILTER_PLANE_X + (unsigned)i, x, y);
+    across_axes(direction, lanes, l);
     lanes->distance[l] = (float)distance;
     lanes->kinds |= lanes->b[3][l] > 0 ? FILTER_KIND_POSITION : FILTER_KIND_DIRECTION;
     if (lanes->b[3][l] > 0)
@@ -538,10 +572,53 @@ static struct help help_needed(const struct filter *filter, const struct filter_
     return help;
 }
 
+static double clamp(double value, double low, double high)
+{
+    return fmax(low, fmin(value, high));
+}
+
+/* Mean radiance of lane l's lobe, R, G, B, by what is seen of it: the value at its middle of the plane of weighted
+ * least squares in u and v,
+ *   minimise sum f (L0 - value - slope . (u, v))^2 + ridge variance sum f |slope|^2,
+ * with variance that of u in the whole lobe. Where the lobe is evenly covered that is the mean of L0; where it is
+ * covered on one side the mean is that side's (Fan, "Design-adaptive nonparametric regression", 1992). Within the range
+ * of what is seen. */
+static void fit_plane(const struct filter_moments *seen, int l, double phong, double value[3])
+{
+    double m[FILTER_MOMENTS];
+    for (int i = 0; i < FILTER_MOMENTS; i++)
+        m[i] = seen->value[i][l] / seen->value[FILTER_MOMENT_1][l];
+    const double damping = ridge / (phong + 3), u = m[FILTER_MOMENT_U], v = m[FILTER_MOMENT_V];
+    const double uu = m[FILTER_MOMENT_UU] - u * u + damping, vv = m[FILTER_MOMENT_VV] - v * v + damping;
+    const double uv = m[FILTER_MOMENT_UV] - u * v, determinant = uu * vv - uv * uv;
+    for (int i = 0; i < 3; i++) {
+        double mean = m[FILTER_MOMENT_R + i];
+        double with_u = m[FILTER_MOMENT_RU + i] - mean * u, with_v = m[FILTER_MOMENT_RV + i] - mean * v;
+        double turn = ((vv * u - uv * v) * with_u + (uu * v - uv * u) * with_v) / determinant;
+        value[i] = clamp(mean - turn, (double)seen->low[i][l], (double)seen->high[i][l]);
+    }
+}
+
+/* Takes off what can't be expected where nothing is seen. Where single things are much brighter than the mean, 1 +
+ * variance / mean^2 of R + G + B is about one over the share of the lobe that they fill; being few they are more likely
+ * among what is seen than elsewhere. The mean of what isn't seen is less by that, within the range of what is. */
+static void dim_unseen(const struct filter_moments *seen, int l, double confidence, double value[3])
+{
+    double mean = 0, square = seen->value[FILTER_MOMENT_SQUARE][l] * seen->value[FILTER_MOMENT_1][l];
+    for (int i = 0; i < 3; i++)
+        mean += seen->value[FILTER_MOMENT_R + i][l];
+    const double share = square > 0 ? fmin(even_contrast * mean * mean / square, 1) : 1;
+    for (int i = 0; i < 3; i++) {
+        double unseen = clamp(share * value[i], (double)seen->low[i][l], (double)seen->high[i][l]);
+        value[i] = confidence * value[i] + (1 - confidence) * (share < 1 ? unseen : value[i]);
+    }
+}
+
 static void blur_best_lanes(struct filter *filter, int x, int y, float *scratch)
 {
     struct filter_lanes lanes;
-    struct filter_sums seen = {0}, pool = {0};
+    struct filter_moments seen = {0};
+    struct filter_sums pool = {0};
     struct help help[FILTER_LANES] = {{0}};
     bool used[FILTER_LANES], steep = lanes_fill(filter, x, y, &lanes, used), any_help = false;
     const bool any = steep, narrow = lanes.narrow;
@@ -574,14 +651,22 @@ static void blur_best_lanes(struct filter *filter, int x, int y, float *scratch)
     for (int l = 0; l < FILTER_LANES && x + l < filter->taps.width; l++) {
         if (!is_glossy(filter, x + l, y))
             continue;
-        double sums[4], share = help[l].share;
+        double mean[3], share = help[l].share;
         if (help[l].missing > 0 && pool.value[3][l] > 0)
             share += help[l].missing / pool.value[3][l];
-        for (int i = 0; i < 4; i++)
-            sums[i] = seen.value[i][l] + share * pool.value[i][l];
-        pixel_write(filter, x + l, y, sums, sums[3]);
-        double lobe = lobe_integral(exponent_at(filter, x + l, y), filter->floor);
-        image_row(&filter->confidence, 0, y)[x + l] = used[l] ? (float)fmin(seen.value[3][l] / lobe, 1) : 1;
+        double phong = exponent_at(filter, x + l, y), weight = seen.value[FILTER_MOMENT_1][l];
+        double confidence = used[l] ? fmin(weight / lobe_integral(phong, filter->floor), 1) : 1;
+        const bool fit = weight > 0 && !(filter->options->without & FILTER_WITHOUT_FIT);
+        for (int i = 0; i < 3; i++)
+            mean[i] = seen.value[FILTER_MOMENT_R + i][l] / weight;
+        if (fit)
+            fit_plane(&seen, l, phong, mean);
+        for (int i = 0; i < 3; i++)
+            mean[i] = (mean[i] * weight + share * pool.value[i][l]) / (weight + share * pool.value[3][l]);
+        if (fit)
+            dim_unseen(&seen, l, confidence, mean);
+        pixel_write(filter, x + l, y, mean, weight > 0 ? 1 : 0);
+        image_row(&filter->confidence, 0, y)[x + l] = (float)confidence;
     }
 }
 

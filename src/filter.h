@@ -14,8 +14,13 @@ enum filter_formula { FILTER_FORMULA_PHONG, FILTER_FORMULA_MAX }; /* equation (3
 enum filter_window { FILTER_WINDOW_ROUND, FILTER_WINDOW_SQUARE };
 
 /* What the best filter may leave out, to measure what it is worth: the solid angle of each pixel (all count alike, but
- * for the carry to the receiver), visibility, and the help of pixels that are not seen. */
-enum filter_without { FILTER_WITHOUT_DENSITY = 1, FILTER_WITHOUT_VISIBILITY = 2, FILTER_WITHOUT_POOL = 4 };
+ * for the carry to the receiver), visibility, the help of pixels that are not seen, and the fit to what is seen. */
+enum filter_without {
+    FILTER_WITHOUT_DENSITY = 1,
+    FILTER_WITHOUT_VISIBILITY = 2,
+    FILTER_WITHOUT_POOL = 4,
+    FILTER_WITHOUT_FIT = 8
+};
 
 struct filter_options {
     enum filter_mode mode;
@@ -42,13 +47,17 @@ struct filter_options filter_options_default(void);
  * results, at most 3 pixels away; 0 elsewhere. measure, where not NULL, is allocated too, 1 channel, 0 where not
  * glossy: of the paper the radius of equation (5) in pixels, of the best filter the confidence.
  *
- * FILTER_MODE_PAPER: equation (1). FILTER_MODE_BEST: sum f L0 / sum f over the pixels whose endpoints b' the pixel's
- * own a sees, f = max(cos^p(theta) - (1 - energy), 0) times the solid angle at a of the area that b' stands for.
- * - That area: of the pixel's directions, seen from its own a, the cross product of the differences across and down (of
- *   the two neighbours on an axis the one that differs less), times its distance squared. From a it is the area over
- *   the distance from a squared, less where that comes near a hemisphere: A / (r^2 + A / 2 pi).
+ * FILTER_MODE_PAPER: equation (1). FILTER_MODE_BEST: over the pixels whose endpoints b' the pixel's own a sees, with f
+ * = max(cos^p(theta) - (1 - energy), 0) times the solid angle at a of the area that b' stands for, the value of L0 at
+ * theta = 0 by a plane fitted to it with the weights f, within the range of what is seen (without the fit, sum f L0 /
+ * sum f).
+ * - That area: of the pixel's ray, the cross product of its shifts at b' to the next pixel across and down (of the two
+ *   neighbours on an axis the one that shifts it less). From a it is the area over the distance from a squared, less
+ *   where that comes near a hemisphere: A / (r^2 + A / 2 pi).
  * - Seen: see filter_see in filter_kernel.h. A non-glossy pixel hides what a surface that goes on like the pixel's own
  *   would no longer reflect.
+ * - Where what is seen covers little of the lobe and single things are much brighter than the rest of it, the rest is
+ *   taken to have fewer of them (part of the fit).
  * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of
  *   the lobe, and (16 / n)^2 where the lobe holds n pixels only.
  * With rays in the gbuffer the result is then corrected by them: see control_variate.h.

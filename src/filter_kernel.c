@@ -85,10 +85,15 @@ ALWAYS_INLINE float power_to_weight(float power)
     return power > LOWEST_POWER ? p : 0.0f;
 }
 
-/* c and q.q of lane l's tap; `tap` is the index of lane 0's in the planes. `mixed`: the lane looks for itself whether
- * the tap is of its own kind and not near. */
-ALWAYS_INLINE void tap_angle(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap, int l,
-                             bool mixed, float *c, float *qq)
+/* c and q of a tap, and q.q. */
+struct angle {
+    float c, qq, x, y, z;
+};
+
+/* Of lane l's tap; `tap` is the index of lane 0's in the planes. `mixed`: the lane looks for itself whether the tap is
+ * of its own kind and not near. */
+ALWAYS_INLINE struct angle tap_angle(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
+                                     int l, bool mixed)
 {
     const float *bx = taps->planes[FILTER_PLANE_X] + tap;
     const float *by = taps->planes[FILTER_PLANE_Y] + tap;
@@ -113,8 +118,7 @@ ALWAYS_INLINE void tap_angle(const struct filter_taps *taps, const struct filter
     float dx = lanes->direction[0][l], dy = lanes->direction[1][l], dz = lanes->direction[2][l];
     float along = ex * dx + ey * dy + ez * dz;
     float qx = ex - along * dx, qy = ey - along * dy, qz = ez - along * dz;
-    *qq = qx * qx + qy * qy + qz * qz;
-    *c = along + own;
+    return (struct angle){.c = along + own, .qq = qx * qx + qy * qy + qz * qz, .x = qx, .y = qy, .z = qz};
 }
 
 /* -log2 cos^2(theta) for y = t / (2 + t), t = tan^2(theta): log2(1 + t) = 2 atanh(y) / log(2), within 2e-7 up to t = 1,
@@ -144,8 +148,8 @@ ALWAYS_INLINE void tap_weights(const struct filter_taps *taps, const struct filt
     const float *area = taps->planes[FILTER_PLANE_AREA] + tap;
     const float none = path == PATH_TABLE ? (float)WEIGHTS_TABLE_LAST : 0.0f;
     for (int l = 0; l < FILTER_LANES; l++) {
-        float c, qq, f;
-        tap_angle(taps, lanes, tap, l, mixed, &c, &qq);
+        const struct angle angle = tap_angle(taps, lanes, tap, l, mixed);
+        float c = angle.c, qq = angle.qq, f;
         if (path == PATH_NARROW) {
             f = power_to_weight(-lanes->slope[l] * narrow_log2(qq / (2.0f * (c * c) + qq)));
         } else {
@@ -341,7 +345,8 @@ ALWAYS_INLINE float narrow_log2_of_1_plus(float t)
  * Where no endpoint is known the angle is what a surface that goes on unchanged would give for the farthest things. */
 ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
                            float separation, bool narrow, bool mixed, const float *restrict before,
-                           float *restrict own, float *restrict least, float (*sums)[FILTER_LANES])
+                           float *restrict own, float *restrict least, float (*sums)[FILTER_LANES],
+                           struct filter_moments *restrict range)
 {
     const float *area = taps->planes[FILTER_PLANE_AREA] + tap;
     const float *red = taps->planes[FILTER_PLANE_R] + tap;
@@ -349,8 +354,9 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
     const float *blue = taps->planes[FILTER_PLANE_B] + tap;
     _Alignas(64) float largest[FILTER_LANES]; /* nothing else can lie here: no check stands before the vectors */
     for (int l = 0; l < FILTER_LANES; l++) {
-        float c, qq, high = before[l], reach = lanes->reach[l], far = lanes->step[l] * separation;
-        tap_angle(taps, lanes, tap, l, mixed, &c, &qq);
+        const struct angle angle = tap_angle(taps, lanes, tap, l, mixed);
+        float c = angle.c, qq = angle.qq, high = before[l], reach = lanes->reach[l];
+        float far = lanes->step[l] * separation;
         float t = qq / (c * c);
         t = t < 0x1p100f ? t : 0x1p100f; /* also NaN */
         t = c > 0.0f ? t : 0x1p100f;
@@ -365,10 +371,34 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
         largest[l] = t;
         t -= lanes->blind[l];
         least[l] = t < least[l] ? t : least[l];
-        sums[0][l] += f * red[l];
-        sums[1][l] += f * green[l];
-        sums[2][l] += f * blue[l];
-        sums[3][l] += f;
+        float place = c / (c * c + qq + FLT_MIN);
+        float u = place * (angle.x * lanes->across[0][0][l] + angle.y * lanes->across[0][1][l] +
+                           angle.z * lanes->across[0][2][l]);
+        float v = place * (angle.x * lanes->across[1][0][l] + angle.y * lanes->across[1][1][l] +
+                           angle.z * lanes->across[1][2][l]);
+        float fu = f * u, fv = f * v, sum = red[l] + green[l] + blue[l];
+        sums[FILTER_MOMENT_R][l] += f * red[l];
+        sums[FILTER_MOMENT_G][l] += f * green[l];
+        sums[FILTER_MOMENT_B][l] += f * blue[l];
+        sums[FILTER_MOMENT_1][l] += f;
+        sums[FILTER_MOMENT_U][l] += fu;
+        sums[FILTER_MOMENT_V][l] += fv;
+        sums[FILTER_MOMENT_UU][l] += fu * u;
+        sums[FILTER_MOMENT_UV][l] += fu * v;
+        sums[FILTER_MOMENT_VV][l] += fv * v;
+        sums[FILTER_MOMENT_RU][l] += fu * red[l];
+        sums[FILTER_MOMENT_GU][l] += fu * green[l];
+        sums[FILTER_MOMENT_BU][l] += fu * blue[l];
+        sums[FILTER_MOMENT_RV][l] += fv * red[l];
+        sums[FILTER_MOMENT_GV][l] += fv * green[l];
+        sums[FILTER_MOMENT_BV][l] += fv * blue[l];
+        sums[FILTER_MOMENT_SQUARE][l] += f * (sum * sum);
+        float radiance[3] = {red[l], green[l], blue[l]};
+        for (int i = 0; i < 3; i++) {
+            float least_seen = f > 0.0f ? radiance[i] : INFINITY, most_seen = f > 0.0f ? radiance[i] : -INFINITY;
+            range->low[i][l] = least_seen < range->low[i][l] ? least_seen : range->low[i][l];
+            range->high[i][l] = most_seen > range->high[i][l] ? most_seen : range->high[i][l];
+        }
     }
     memcpy(own, largest, sizeof largest);
 }
@@ -389,9 +419,9 @@ ALWAYS_INLINE void see_nothing(const struct filter_lanes *lanes, float separatio
 /* Up to CHUNK taps of one row, dx from first to last in steps of +-1. Whether any lane sees on. */
 ALWAYS_INLINE bool see_columns(const struct filter_taps *taps, const struct filter_lanes *lanes, int first, int last,
                                int dy, bool narrow, bool mixed, bool nothing, state *here, state *above,
-                               struct filter_sums *restrict sums)
+                               struct filter_moments *restrict sums)
 {
-    _Alignas(64) float partial[4][FILTER_LANES] = {{0}};
+    _Alignas(64) float partial[FILTER_MOMENTS][FILTER_LANES] = {{0}};
     _Alignas(64) float least[FILTER_LANES], before[FILTER_LANES];
     size_t row = (size_t)(lanes->y + dy) * taps->stride;
     int away = abs(dy), step = last < first ? -1 : 1, count = abs(last - first) + 1;
@@ -406,10 +436,9 @@ ALWAYS_INLINE bool see_columns(const struct filter_taps *taps, const struct filt
             see_nothing(lanes, separation, before, here[dx], least);
         else
             see_tap(taps, lanes, row + (size_t)(lanes->x + dx + FILTER_BORDER), separation, narrow, mixed, before,
-                    here[dx],
-                    least, partial);
+                    here[dx], least, partial, sums);
     }
-    for (int i = 0; i < 4 && !nothing; i++)
+    for (int i = 0; i < FILTER_MOMENTS && !nothing; i++)
         for (int l = 0; l < FILTER_LANES; l++)
             sums->value[i][l] += (double)partial[i][l];
     float smallest = INFINITY;
@@ -419,11 +448,11 @@ ALWAYS_INLINE bool see_columns(const struct filter_taps *taps, const struct filt
 }
 
 typedef bool see_columns_function(const struct filter_taps *taps, const struct filter_lanes *lanes, int first, int last,
-                                  int dy, state *here, state *above, struct filter_sums *sums);
+                                  int dy, state *here, state *above, struct filter_moments *sums);
 #define DEFINE_SEE(name, narrow, mixed, nothing)                                                                       \
     __attribute__((noinline)) static bool name(const struct filter_taps *taps, const struct filter_lanes *lanes,       \
                                                int first, int last, int dy, state *here, state *above,                 \
-                                               struct filter_sums *sums)                                               \
+                                               struct filter_moments *sums)                                            \
     {                                                                                                                  \
         return see_columns(taps, lanes, first, last, dy, narrow, mixed, nothing, here, above, sums);                   \
     }
@@ -483,7 +512,7 @@ static void close_chunk(const struct side *side, int chunk, state *row)
 /* One side of a row, outward from its live chunks of the row before. Columns that are
  * looked at though nothing reached them are closed. */
 static void see_side(const struct filter_taps *taps, const struct filter_lanes *lanes, struct side *side, int dy,
-                     state *here, state *above, struct filter_sums *sums)
+                     state *here, state *above, struct filter_moments *sums)
 {
     const int first = side->first, last = side->last;
     /* Column 0 belongs to the right; from it the left begins anew. */
@@ -520,7 +549,7 @@ static void see_side(const struct filter_taps *taps, const struct filter_lanes *
 
 /* One row, right and left. Whether there is more beyond. */
 static bool see_row(const struct filter_taps *taps, const struct filter_lanes *lanes, struct side sides[2], int dy,
-                    state *here, state *above, struct filter_sums *sums)
+                    state *here, state *above, struct filter_moments *sums)
 {
     double width = sqrt(fmax((double)lanes->limit_px * lanes->limit_px - (double)dy * dy, 0));
     sides[0].limit = (int)fmin(width, taps->width - 1 - lanes->x);
@@ -531,13 +560,18 @@ static bool see_row(const struct filter_taps *taps, const struct filter_lanes *l
 }
 
 void CONCATENATE(filter_see_, FILTER_KERNEL_ISA)(const struct filter_taps *taps, const struct filter_lanes *lanes,
-                                                 float *scratch, struct filter_sums *sums)
+                                                 float *scratch, struct filter_moments *sums)
 {
     size_t columns = FILTER_SEE_COLUMNS(taps->width);
     state *rows = (state *)scratch + lanes->x + FILTER_LANES + 2 * CHUNK;
     state *centre = rows, *others[2] = {rows + columns, rows + 2 * columns};
     struct side start[2] = {{.step = 1, .first = 0, .last = 0}, {.step = -1, .first = 0, .last = 0}};
     memset(sums, 0, sizeof *sums);
+    for (int i = 0; i < 3; i++)
+        for (int l = 0; l < FILTER_LANES; l++) {
+            sums->low[i][l] = INFINITY;
+            sums->high[i][l] = -INFINITY;
+        }
     memset(others[0][0], 0, sizeof(state)); /* on the way to the lanes' own pixels there is nothing */
     if (!see_row(taps, lanes, start, 0, centre, others[0], sums))
         return;

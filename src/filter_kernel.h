@@ -68,6 +68,7 @@ struct filter_lanes {
     float slope[FILTER_LANES];
     float limit[FILTER_LANES];         /* rho^2, pixels^2 */
     /* For filter_see alone: */
+    float across[2][3][FILTER_LANES];  /* unit vectors at right angles to the direction and to each other */
     float reach[FILTER_LANES];         /* largest tan^2(theta) of the lobe */
     float blind[FILTER_LANES];         /* nothing beyond a tap of a larger tan^2(theta) is seen within reach; -1: an
                                           unused lane */
@@ -80,6 +81,33 @@ struct filter_lanes {
 /* sum f L0 (R, G, B) and sum f of equation (1). */
 struct filter_sums {
     double value[4][FILTER_LANES];
+};
+
+/* sum f L0 and sum f, and those times where in the lobe a tap lies: u and v are sin(theta) cos(theta) along the axes
+ * across[0] and across[1] of the lanes. */
+enum filter_moment {
+    FILTER_MOMENT_R,
+    FILTER_MOMENT_G,
+    FILTER_MOMENT_B,
+    FILTER_MOMENT_1,
+    FILTER_MOMENT_U,
+    FILTER_MOMENT_V,
+    FILTER_MOMENT_UU,
+    FILTER_MOMENT_UV,
+    FILTER_MOMENT_VV,
+    FILTER_MOMENT_RU,
+    FILTER_MOMENT_GU,
+    FILTER_MOMENT_BU,
+    FILTER_MOMENT_RV,
+    FILTER_MOMENT_GV,
+    FILTER_MOMENT_BV,
+    FILTER_MOMENT_SQUARE, /* of R + G + B */
+    FILTER_MOMENTS
+};
+
+struct filter_moments {
+    double value[FILTER_MOMENTS][FILTER_LANES];
+    float low[3][FILTER_LANES], high[3][FILTER_LANES]; /* of L0 where f is above 0 */
 };
 
 /* From this slope of the power (p = 240 and more) on, the weights are below 2^-120, that is 0, before tan(theta)
@@ -103,7 +131,7 @@ filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;
  *
  * scratch: FILTER_SEE_COLUMNS(width) * 3 * FILTER_LANES floats, aligned to 64 bytes, with any content. */
 typedef void filter_see(const struct filter_taps *taps, const struct filter_lanes *lanes, float *scratch,
-                        struct filter_sums *sums);
+                        struct filter_moments *sums);
 
 #define FILTER_SEE_COLUMNS(width) ((size_t)(width) + 64)
 

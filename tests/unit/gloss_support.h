@@ -254,31 +254,39 @@ UNUSED static bool oracle_inside(const struct gbuffer *gbuffer, int x, int y)
 UNUSED static double oracle_area(const struct gbuffer *gbuffer, int x, int y)
 {
     double own[3], step[2][3] = {{0}}, length[2] = {INFINITY, INFINITY};
-    double distance = oracle_direction(gbuffer, x, y, x, y, own), solid;
+    double distance = oracle_direction(gbuffer, x, y, x, y, own), area;
     for (int axis = 0; axis < 2; axis++)
         for (int sign = -1; sign <= 1; sign += 2) {
             int u = x + (axis ? 0 : sign), v = y + (axis ? sign : 0);
-            double other[3], size = 0;
+            double moved[3], along = 0, size = 0;
             if (!oracle_inside(gbuffer, u, v))
                 continue;
-            oracle_direction(gbuffer, x, y, u, v, other);
-            for (int i = 0; i < 3; i++)
-                size += (other[i] - own[i]) * (other[i] - own[i]);
+            oracle_direction(gbuffer, u, v, u, v, moved);
+            for (int i = 0; i < 3; i++) {
+                const struct image *position = &gbuffer->position;
+                double from = (double)image_row(position, i, v)[u] - (double)image_row(position, i, y)[x];
+                bool is_position = image_row(&gbuffer->endpoint, 3, y)[x] > 0;
+                moved[i] = sign * ((is_position ? from : 0) + distance * (moved[i] - own[i]));
+                along += moved[i] * own[i];
+            }
+            for (int i = 0; i < 3; i++) {
+                moved[i] -= along * own[i];
+                size += moved[i] * moved[i];
+            }
             if (sqrt(size) >= length[axis])
                 continue;
             length[axis] = sqrt(size);
-            for (int i = 0; i < 3; i++)
-                step[axis][i] = sign * (other[i] - own[i]);
+            memcpy(step[axis], moved, sizeof moved);
         }
     if (isinf(length[0]) || isinf(length[1])) {
         double side = fmin(length[0], length[1]);
-        solid = isinf(side) ? 0 : side * side;
+        area = isinf(side) ? 0 : side * side;
     } else {
         const double *s = step[0], *t = step[1];
-        solid = sqrt(pow(s[1] * t[2] - s[2] * t[1], 2) + pow(s[2] * t[0] - s[0] * t[2], 2) +
-                     pow(s[0] * t[1] - s[1] * t[0], 2));
+        area = sqrt(pow(s[1] * t[2] - s[2] * t[1], 2) + pow(s[2] * t[0] - s[0] * t[2], 2) +
+                    pow(s[0] * t[1] - s[1] * t[0], 2));
     }
-    return fmax(solid, 1e-12) * distance * distance;
+    return fmax(area, 1e-12 * distance * distance);
 }
 
 /* tan^2 of the angle at a(x, y) between two endpoints; infinite from 90 degrees on. */
@@ -314,14 +322,18 @@ UNUSED static double oracle_gradient(const struct gbuffer *gbuffer, int x, int y
 
 /* The best filter at a glossy pixel, ring by ring over the whole picture; radius is that of the pool, equation (5).
  * `ways`: width * height doubles, `areas` oracle_area of every pixel. Returns the confidence. */
-UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, double radius, const double *areas, double *ways,
-                                       int x, int y, double colour[3])
+UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const struct filter_options *options,
+                                       double radius, const double *areas, double *ways, int x, int y,
+                                       double colour[3])
 {
     const int width = gbuffer->phong.width, height = gbuffer->phong.height;
     const double pi = 3.14159265358979324, floor_weight = 0.001;
     const double p = (double)image_row(&gbuffer->phong, 0, y)[x], reach = pow(floor_weight, -2 / p) - 1;
     const double gradient = oracle_gradient(gbuffer, x, y);
-    double seen[4] = {0}, pool[4] = {0}, own[3];
+    double seen[4] = {0}, pool[4] = {0}, own[3], low[3] = {INFINITY, INFINITY, INFINITY};
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0, place[3] = {0}, second[3][3] = {{0}};
+    double radiance_place[3][3] = {{0}};
+    oracle_direction(gbuffer, x, y, x, y, own);
     for (int m = 0; m < (width > height ? width : height); m++)
         for (int v = y - m; v <= y + m; v++)
             for (int u = x - m; u <= x + m; u++) {
@@ -344,10 +356,29 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, double rad
                 double distance = oracle_direction(gbuffer, x, y, u, v, direction);
                 double solid = area / (distance * distance + area / (2 * pi)), weight = pow(1 + t, -p / 2);
                 ways[v * width + u] = fmax(before, t);
-                double f = 1.21 * t >= before && t <= reach ? fmax(weight - floor_weight, 0) * solid : 0;
+                double f = 4 * t >= before && t <= reach ? fmax(weight - floor_weight, 0) * solid : 0;
+                double cosine_at = 0, sum = 0, at[3];
+                for (int i = 0; i < 3; i++) {
+                    cosine_at += direction[i] * own[i];
+                    sum += (double)image_row(&gbuffer->specular, i, v)[u];
+                }
+                square += f * sum * sum;
+                for (int i = 0; i < 3; i++)
+                    at[i] = cosine_at * (direction[i] - cosine_at * own[i]);
+                for (int i = 0; i < 3; i++) {
+                    place[i] += f * at[i];
+                    for (int j = 0; j < 3; j++)
+                        second[i][j] += f * at[i] * at[j];
+                }
                 for (int i = 0; i < 4; i++) {
                     double value = i < 3 ? (double)image_row(&gbuffer->specular, i, v)[u] : 1;
                     seen[i] += f * value;
+                    if (i < 3 && f > 0) {
+                        low[i] = fmin(low[i], value);
+                        high[i] = fmax(high[i], value);
+                    }
+                    for (int j = 0; j < 3 && i < 3; j++)
+                        radiance_place[i][j] += f * value * cosine_at * (direction[j] - cosine_at * own[j]);
                     pool[i] += dx * dx + dy * dy <= radius * radius ? weight * solid * value : 0;
                 }
             }
@@ -358,9 +389,35 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, double rad
     share = fmax(share - 1.0 / 64, 0) + 0.5 * fmax(0.98 * cut - seen[3], 0) / pool[3];
     if (radius < 1)
         share = 0;
-    for (int i = 0; i < 3; i++)
-        colour[i] = (seen[i] + share * pool[i]) / (seen[3] + share * pool[3]);
-    return fmin(seen[3] / cut, 1);
+    /* Normal equations of the plane, in space: the slope has no part along the direction, where second is 0. */
+    double matrix[3][4], slope[3] = {0}, confidence = fmin(seen[3] / cut, 1);
+    double contrast = square * seen[3] / pow(seen[0] + seen[1] + seen[2], 2), dimmed = contrast > 3 ? 3 / contrast : 1;
+    for (int channel = 0; channel < 3; channel++) {
+        double mean = seen[channel] / seen[3], value = mean;
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++)
+                matrix[i][j] = second[i][j] / seen[3] - place[i] * place[j] / seen[3] / seen[3] +
+                               (i == j ? 0.3 / (p + 3) : 0);
+            matrix[i][3] = (radiance_place[channel][i] - mean * place[i]) / seen[3];
+        }
+        for (int i = 0; i < 3; i++) /* Gauss and Jordan: the matrix is positive definite */
+            for (int k = 0; k < 3; k++)
+                for (int j = 3; k != i && j >= i; j--)
+                    matrix[k][j] -= matrix[k][i] / matrix[i][i] * matrix[i][j];
+        for (int i = 0; i < 3; i++) {
+            slope[i] = matrix[i][3] / matrix[i][i];
+            value -= slope[i] * place[i] / seen[3];
+        }
+        if (!(options->without & FILTER_WITHOUT_FIT))
+            value = fmax(low[channel], fmin(value, high[channel]));
+        else
+            value = mean;
+        value = (value * seen[3] + share * pool[channel]) / (seen[3] + share * pool[3]);
+        if (dimmed < 1 && !(options->without & FILTER_WITHOUT_FIT))
+            value = confidence * value + (1 - confidence) * fmax(low[channel], fmin(dimmed * value, high[channel]));
+        colour[channel] = value;
+    }
+    return confidence;
 }
 
 /* Largest relative error of a result's channels; infinite for NaN. Black may be exactly black. */
@@ -396,7 +453,7 @@ UNUSED static int oracle_best_errors(const struct gbuffer *gbuffer, const struct
             if (!scene_glossy(gbuffer, x, y) || glossy_count++ % stride != 0)
                 continue;
             double expected[3], r = (double)image_row(&radius, 0, y)[x];
-            double error = fabs(oracle_best_pixel(gbuffer, r, areas, ways, x, y, expected) -
+            double error = fabs(oracle_best_pixel(gbuffer, options, r, areas, ways, x, y, expected) -
                                 (double)image_row(&confidence, 0, y)[x]);
             errors[count++] = fmax(error, oracle_colour_error(&glossy, x, y, expected));
         }

@@ -299,7 +299,7 @@ static void filter_best__density__weighs_near_things_by_their_solid_angle(void *
         struct gbuffer gbuffer;
         struct image glossy;
         options.mode = FILTER_MODE_BEST;
-        options.without = without;
+        options.without = without | FILTER_WITHOUT_FIT;
         wall_gbuffer(&gbuffer, 300, 32, 1);
         filter_run(&gbuffer, &options, &glossy, NULL);
         if (without)
@@ -309,6 +309,51 @@ static void filter_best__density__weighs_near_things_by_their_solid_angle(void *
         image_free(&glossy);
         gbuffer_free(&gbuffer);
     }
+}
+
+/* The result in the middle of the left border, where half of the lobe is missing, of radiance that depends on x. */
+static double border_result(float phong, float (*radiance)(int x), unsigned without)
+{
+    struct filter_options options = test_options();
+    struct gbuffer gbuffer;
+    struct image glossy;
+    options.mode = FILTER_MODE_BEST;
+    options.without = without | FILTER_WITHOUT_POOL;
+    wall_gbuffer(&gbuffer, phong, 0, 1);
+    for (int i = 0; i < 3; i++)
+        for (int y = 0; y < 64; y++)
+            for (int x = 0; x < 64; x++)
+                image_row(&gbuffer.specular, i, y)[x] = radiance(x);
+    filter_run(&gbuffer, &options, &glossy, NULL);
+    double result = (double)image_row(&glossy, 0, 32)[0];
+    image_free(&glossy);
+    gbuffer_free(&gbuffer);
+    return result;
+}
+
+static float slope(int x)
+{
+    return 10 + (float)x;
+}
+
+static float lamp(int x)
+{
+    return x == 3 ? 1000 : 1;
+}
+
+static void filter_best__fit__goes_on_with_a_slope_beyond_the_border(void **state)
+{
+    (void)state;
+    const double ideal = 10, mean = border_result(1000, slope, FILTER_WITHOUT_FIT);
+    assert_true(mean > ideal + 2);
+    assert_true(fabs(border_result(1000, slope, 0) - ideal) < 0.7 * (mean - ideal));
+}
+
+static void filter_best__fit__expects_no_lamp_where_nothing_is_seen(void **state)
+{
+    (void)state;
+    double mean = border_result(1000, lamp, FILTER_WITHOUT_FIT);
+    assert_true(border_result(1000, lamp, 0) < 0.75 * mean);
 }
 
 static void filter_best__what_a_near_wall_hides__is_not_seen(void **state)
@@ -843,6 +888,8 @@ int main(void)
          teardown_best, NULL},
         cmocka_unit_test(filter_best__wall_across_the_lobe__is_seen_in_full),
         cmocka_unit_test(filter_best__density__weighs_near_things_by_their_solid_angle),
+        cmocka_unit_test(filter_best__fit__goes_on_with_a_slope_beyond_the_border),
+        cmocka_unit_test(filter_best__fit__expects_no_lamp_where_nothing_is_seen),
         cmocka_unit_test(filter_best__what_a_near_wall_hides__is_not_seen),
         BEST_TOO(filter__homogeneous_scale_of_the_endpoint__does_not_matter),
         BEST_TOO(filter__constant_radiance__stays_constant_with_every_option),

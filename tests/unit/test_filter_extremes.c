@@ -14,7 +14,7 @@ static struct filter_options counting(enum filter_mode mode)
 {
     struct filter_options options = filter_options_default();
     options.mode = mode;
-    options.without = FILTER_WITHOUT_DENSITY | FILTER_WITHOUT_POOL;
+    options.without = FILTER_WITHOUT_DENSITY | FILTER_WITHOUT_POOL | FILTER_WITHOUT_FIT;
     options.threads = 1;
     return options;
 }

@@ -359,6 +359,9 @@ static void try_linearity(struct trial *trial)
     const float factor = (float)random_between(-3, 3);
     struct gbuffer other = gbuffer_copy(&trial->gbuffer), both = gbuffer_copy(&trial->gbuffer);
     struct image glossy, sum;
+    trial->options.without |= FILTER_WITHOUT_FIT;
+    image_free(&trial->glossy);
+    filter_run(&trial->gbuffer, &trial->options, &trial->glossy, NULL);
     for (int i = 0; i < 3; i++)
         for (int y = 0; y < HEIGHT; y++)
             for (int x = 0; x < WIDTH; x++) {
@@ -490,7 +493,7 @@ static void try_spread(struct trial *trial)
     struct gbuffer spread = gbuffer_copy(&trial->gbuffer);
     int count = 0;
     trial->options.max_radius_px = 6;
-    trial->options.without = FILTER_WITHOUT_POOL;
+    trial->options.without = FILTER_WITHOUT_POOL | FILTER_WITHOUT_FIT;
     trial->options.phong_override = true;
     spread.has_eye = true;
     spread.view_angle = 1e-9f;
