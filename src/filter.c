@@ -31,8 +31,8 @@ static const double pi = 3.14159265358979324;
 /* In units of the taps, whose farthest position is at 2^20: 1e-15 of that. */
 static const double least_distance = 1e-9;
 
-/* How many times larger tan^2(theta) is of what hides an endpoint: twice the angle. What is near the rim of a thing
- * that stands before it is often seen past its other side. */
+/* How many times larger tan^2(theta) is of what hides an endpoint wholly: twice the angle. What is near the rim of a
+ * thing that stands before it is often seen past its other side. */
 static const float hidden_ratio = 4.0f;
 
 /* See help_needed(); so little that it isn't worth its time is taken off. */

@@ -73,7 +73,8 @@ struct filter_lanes {
     float blind[FILTER_LANES];         /* nothing beyond a tap of a larger tan^2(theta) is seen within reach; -1: an
                                           unused lane */
     float step[FILTER_LANES];          /* tan^2(theta) at least, per pixel^2, where no endpoint is known */
-    float hidden;                      /* how many times larger tan^2(theta) is of what hides a tap */
+    float hidden;                      /* how many times larger tan^2(theta) is of what hides a tap wholly; half as
+                                          many times: not at all */
     float floor;                       /* taken off cos^p; what would be negative is 0 */
     int limit_px;                      /* farthest tap from the lanes' own pixels */
 };
@@ -124,10 +125,11 @@ filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;
 /* Sums over the taps that every lane's a sees: weights (cos^p - floor) times the solid angle of the tap's pixel.
  *
  * All that the camera sees in the mirror along a straight line of pixels from the lane's own lies in one plane, and is
- * in front of what follows on the line. A tap is hidden from a when a tap before it on the line was at an angle theta
- * larger by some tolerance: then the line from a to its b passes behind that one. The taps that are seen are thus one
- * patch around the lane's own pixel, which grows until all of its rim is out of reach. On the way to a tap lie both
- * neighbours between which the straight line comes in, and the one with less in the way counts.
+ * in front of what follows on the line. A tap is hidden from a when a tap before it on the line was at a larger angle
+ * theta: then the line from a to its b passes behind that one. Its weight falls from all to none where that one's
+ * tan^2(theta) is from hidden / 2 to hidden times as large: a sharp end would show in the picture. The taps that are
+ * seen are thus one patch around the lane's own pixel, which grows until all of its rim is out of reach. On the way to
+ * a tap lie both neighbours between which the straight line comes in, and the one with less in the way counts.
  *
  * scratch: FILTER_SEE_COLUMNS(width) * 3 * FILTER_LANES floats, aligned to 64 bytes, with any content. */
 typedef void filter_see(const struct filter_taps *taps, const struct filter_lanes *lanes, float *scratch,

@@ -250,7 +250,7 @@ UNUSED static bool oracle_inside(const struct gbuffer *gbuffer, int x, int y)
     return x >= 0 && y >= 0 && x < gbuffer->phong.width && y < gbuffer->phong.height && scene_glossy(gbuffer, x, y);
 }
 
-/* The best filter's area of a pixel: the cross product of the smaller one-sided differences, times distance^2. */
+/* The best filter's area of a pixel: the cross product of its ray's shifts to the neighbours that shift it less. */
 UNUSED static double oracle_area(const struct gbuffer *gbuffer, int x, int y)
 {
     double own[3], step[2][3] = {{0}}, length[2] = {INFINITY, INFINITY};
@@ -356,7 +356,8 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                 double distance = oracle_direction(gbuffer, x, y, u, v, direction);
                 double solid = area / (distance * distance + area / (2 * pi)), weight = pow(1 + t, -p / 2);
                 ways[v * width + u] = fmax(before, t);
-                double f = 4 * t >= before && t <= reach ? fmax(weight - floor_weight, 0) * solid : 0;
+                double in_view = before > 0 ? fmax(0, fmin(4 * t / before - 1, 1)) : 1;
+                double f = t <= reach ? in_view * fmax(weight - floor_weight, 0) * solid : 0;
                 double cosine_at = 0, sum = 0, at[3];
                 for (int i = 0; i < 3; i++) {
                     cosine_at += direction[i] * own[i];
