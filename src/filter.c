@@ -38,6 +38,10 @@ static const float hidden_ratio = 4.0f;
 /* See help_needed(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 16, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.02;
 
+/* How many times larger than from its own a the solid angle of a pixel may be from another: from so near it is no longer
+ * one point. */
+static const double most_enlarged = 10;
+
 /* Of fit_plane() and dim_unseen(). */
 static const double ridge = 0.3, even_contrast = 3;
 
@@ -291,11 +295,18 @@ static void areas_fill(void *context, int first, int end)
 {
     struct filter *filter = context;
     const struct filter_taps *taps = &filter->taps;
-    float *areas = filter->planes + FILTER_PLANE_AREA * taps->stride * (size_t)taps->height;
+    const size_t plane = taps->stride * (size_t)taps->height;
     for (int y = first; y < end; y++)
-        for (int x = 0; x < taps->width; x++)
-            if (is_glossy(filter, x, y))
-                areas[(size_t)y * taps->stride + (size_t)x + FILTER_BORDER] = (float)fmax(area_at(filter, x, y), 1e-30);
+        for (int x = 0; x < taps->width; x++) {
+            float *tap = filter->planes + (size_t)y * taps->stride + (size_t)x + FILTER_BORDER, a[3];
+            double own[3];
+            if (!is_glossy(filter, x, y))
+                continue;
+            position_at(filter, x, y, a);
+            double distance = direction_to(filter, a, x, y, own);
+            tap[FILTER_PLANE_AREA * plane] = (float)fmax(area_at(filter, x, y), 1e-30);
+            tap[FILTER_PLANE_NEAREST * plane] = (float)(distance * distance / most_enlarged);
+        }
 }
 
 /* Pixels in which the direction to the endpoint turns by the half-angle, where the camera is not known. */

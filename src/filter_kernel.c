@@ -133,11 +133,14 @@ ALWAYS_INLINE float narrow_log2(float y)
     return p * y;
 }
 
-/* Solid angle of a tap's pixel as seen from a lane's a: its area over the distance squared, 2 pi at most. */
-ALWAYS_INLINE float solid_angle(float area, float c, float qq)
+/* Solid angle of a tap's pixel as seen from a lane's a: its area over the distance squared, which counts as no less than
+ * `nearest`; 2 pi at most. */
+ALWAYS_INLINE float solid_angle(float area, float nearest, float c, float qq)
 {
     const float per_hemisphere = 0.159154943f;
-    return area / ((c * c + qq) + (area * per_hemisphere + FLT_MIN));
+    float square = c * c + qq;
+    square = square > nearest ? square : nearest;
+    return area / (square + (area * per_hemisphere + FLT_MIN));
 }
 
 /* The weights of one tap for all lanes; `separation` is what the window limits. For the table its position instead, at
@@ -146,6 +149,7 @@ ALWAYS_INLINE void tap_weights(const struct filter_taps *taps, const struct filt
                                float separation, enum path path, bool mixed, bool solid, float *restrict weights)
 {
     const float *area = taps->planes[FILTER_PLANE_AREA] + tap;
+    const float *nearest = taps->planes[FILTER_PLANE_NEAREST] + tap;
     const float none = path == PATH_TABLE ? (float)WEIGHTS_TABLE_LAST : 0.0f;
     for (int l = 0; l < FILTER_LANES; l++) {
         const struct angle angle = tap_angle(taps, lanes, tap, l, mixed);
@@ -159,7 +163,7 @@ ALWAYS_INLINE void tap_weights(const struct filter_taps *taps, const struct filt
             f = path != PATH_TABLE ? power_to_weight(-position) : position < none ? position : none;
         }
         if (solid)
-            f *= solid_angle(area[l], c, qq);
+            f *= solid_angle(area[l], nearest[l], c, qq);
         f = c > 0.0f ? f : none;
         weights[l] = separation <= lanes->limit[l] ? f : none;
     }
@@ -349,6 +353,7 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
                            struct filter_moments *restrict range)
 {
     const float *area = taps->planes[FILTER_PLANE_AREA] + tap;
+    const float *nearest = taps->planes[FILTER_PLANE_NEAREST] + tap;
     const float *red = taps->planes[FILTER_PLANE_R] + tap;
     const float *green = taps->planes[FILTER_PLANE_G] + tap;
     const float *blue = taps->planes[FILTER_PLANE_B] + tap;
@@ -367,7 +372,7 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
         seen = seen > 0.0f ? seen : 0.0f;
         f = seen < high ? f * (seen / high) : f;
         f = t <= reach ? f : 0.0f;
-        f *= solid_angle(area[l], c, qq);
+        f *= solid_angle(area[l], nearest[l], c, qq);
         t = area[l] > 0.0f ? t : far;
         t = t > high ? t : high;
         largest[l] = t;

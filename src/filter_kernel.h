@@ -25,6 +25,7 @@ enum filter_plane {
     FILTER_PLANE_G,
     FILTER_PLANE_B,
     FILTER_PLANE_AREA, /* of the pixel at b, across the ray (length^2), or its solid angle for W = 0; 0: unusable */
+    FILTER_PLANE_NEAREST, /* least distance^2 at which that area is seen whole */
     FILTER_PLANES
 };
 

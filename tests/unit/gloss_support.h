@@ -353,8 +353,10 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                     continue;
                 }
                 double t = oracle_tangent(gbuffer, x, y, u, v), area = areas[v * width + u], direction[3];
+                double from_own = oracle_direction(gbuffer, u, v, u, v, direction);
                 double distance = oracle_direction(gbuffer, x, y, u, v, direction);
-                double solid = area / (distance * distance + area / (2 * pi)), weight = pow(1 + t, -p / 2);
+                double nearest = fmax(distance * distance, from_own * from_own / 10);
+                double solid = area / (nearest + area / (2 * pi)), weight = pow(1 + t, -p / 2);
                 ways[v * width + u] = fmax(before, t);
                 double in_view = before > 0 ? fmax(0, fmin(4 * t / before - 1, 1)) : 1;
                 double f = t <= reach ? in_view * fmax(weight - floor_weight, 0) * solid : 0;

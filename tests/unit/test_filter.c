@@ -356,6 +356,44 @@ static void filter_best__fit__expects_no_lamp_where_nothing_is_seen(void **state
     assert_true(border_result(1000, lamp, 0) < 0.75 * mean);
 }
 
+/* The right half of the picture is a wall at x = 3 whose rays end 0.0005 above the floor of the left half, which sees
+ * the sky: the middle one within the lobe of the floor's pixel (4, 4), at whose a it ends. */
+static void floor_and_wall_gbuffer(struct gbuffer *gbuffer)
+{
+    gbuffer_alloc(gbuffer, 16, 9);
+    for (int y = 0; y < 9; y++)
+        for (int x = 0; x < 16; x++) {
+            const bool wall = x >= 8;
+            const float a[3] = {wall ? 3 : 0.1f * (float)x, wall ? 1 + 0.05f * (float)y : 0,
+                                wall ? 0.4f + 0.1f * (float)(x - 8) : 0.1f * (float)y};
+            const float b[3] = {wall ? 0.4001f + 0.05f * (float)(y - 4) : a[0] + 0.1f * (float)(x - 4),
+                                wall ? 0.0005f : 10, wall ? 0.4f + 0.05f * (float)(x - 8) : a[2] + 0.1f * (float)(y - 4)};
+            for (int i = 0; i < 3; i++) {
+                image_row(&gbuffer->position, i, y)[x] = a[i];
+                image_row(&gbuffer->endpoint, i, y)[x] = b[i];
+                image_row(&gbuffer->specular, i, y)[x] = wall;
+            }
+            image_row(&gbuffer->endpoint, 3, y)[x] = 1;
+            image_row(&gbuffer->phong, 0, y)[x] = 100;
+        }
+}
+
+static void filter_best__ray_of_another_mirror_that_ends_at_a__does_not_fill_the_lobe(void **state)
+{
+    (void)state;
+    struct filter_options options = test_options();
+    struct gbuffer gbuffer;
+    struct image glossy;
+    options.mode = FILTER_MODE_BEST;
+    options.without = FILTER_WITHOUT_FIT | FILTER_WITHOUT_POOL;
+    floor_and_wall_gbuffer(&gbuffer);
+    filter_run(&gbuffer, &options, &glossy, NULL);
+    assert_true(image_row(&glossy, 0, 4)[4] > 0);
+    assert_true(image_row(&glossy, 0, 4)[4] < 0.05f);
+    image_free(&glossy);
+    gbuffer_free(&gbuffer);
+}
+
 static void filter_best__what_a_near_wall_hides__is_not_seen(void **state)
 {
     (void)state;
@@ -890,6 +928,7 @@ int main(void)
         cmocka_unit_test(filter_best__density__weighs_near_things_by_their_solid_angle),
         cmocka_unit_test(filter_best__fit__goes_on_with_a_slope_beyond_the_border),
         cmocka_unit_test(filter_best__fit__expects_no_lamp_where_nothing_is_seen),
+        cmocka_unit_test(filter_best__ray_of_another_mirror_that_ends_at_a__does_not_fill_the_lobe),
         cmocka_unit_test(filter_best__what_a_near_wall_hides__is_not_seen),
         BEST_TOO(filter__homogeneous_scale_of_the_endpoint__does_not_matter),
         BEST_TOO(filter__constant_radiance__stays_constant_with_every_option),
