@@ -35,6 +35,10 @@ static const double least_distance = 1e-9;
  * thing that stands before it is often seen past its other side. */
 static const float hidden_ratio = 4.0f;
 
+/* How many times larger than the lobe's tan^2(theta) is where nothing is looked for any more: 10 % of the angle are left
+ * to bumps. What comes back into the lobe from beyond is hidden but for its rim. */
+static const float blind_ratio = 1.21f;
+
 /* See help_needed(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 16, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.02;
 
@@ -633,14 +637,15 @@ static void blur_best_lanes(struct filter *filter, int x, int y, float *scratch)
     struct help help[FILTER_LANES] = {{0}};
     bool used[FILTER_LANES], steep = lanes_fill(filter, x, y, &lanes, used), any_help = false;
     const bool any = steep, narrow = lanes.narrow;
+    const bool everything = filter->options->without & FILTER_WITHOUT_VISIBILITY;
     lanes.limit_px = (int)filter->radius_limit_px;
     lanes.floor = (float)filter->floor;
-    lanes.hidden = filter->options->without & FILTER_WITHOUT_VISIBILITY ? FLT_MAX : hidden_ratio;
+    lanes.hidden = everything ? FLT_MAX : hidden_ratio;
     for (int l = 0; l < FILTER_LANES; l++) {
         if (!used[l])
             continue;
         lanes.reach[l] = (float)lobe_reach(filter, exponent_at(filter, x + l, y));
-        lanes.blind[l] = fminf(lanes.reach[l] * lanes.hidden, FLT_MAX);
+        lanes.blind[l] = everything ? FLT_MAX : lanes.reach[l] * blind_ratio;
         lanes.step[l] = (float)gradient_least(filter, x + l, y);
         steep = steep && lanes.reach[l] <= FILTER_NARROW_REACH;
     }

@@ -345,8 +345,9 @@ ALWAYS_INLINE float narrow_log2_of_1_plus(float t)
     return p * t;
 }
 
-/* One tap for all lanes, `separation` pixels^2 away; `least` is lowered to its state less where the lanes are blind.
- * Where no endpoint is known the angle is what a surface that goes on unchanged would give for the farthest things. */
+/* One tap for all lanes, `separation` pixels^2 away; `least` is lowered to its state, which is infinite where the lane
+ * is blind. Where no endpoint is known the angle is what a surface that goes on unchanged would give for the farthest
+ * things. */
 ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
                            float separation, bool narrow, bool mixed, const float *restrict before,
                            float *restrict own, float *restrict least, float (*sums)[FILTER_LANES],
@@ -375,8 +376,8 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
         f *= solid_angle(area[l], nearest[l], c, qq);
         t = area[l] > 0.0f ? t : far;
         t = t > high ? t : high;
+        t = t <= lanes->blind[l] ? t : INFINITY;
         largest[l] = t;
-        t -= lanes->blind[l];
         least[l] = t < least[l] ? t : least[l];
         float place = c / (c * c + qq + FLT_MIN);
         float u = place * (angle.x * lanes->across[0][0][l] + angle.y * lanes->across[0][1][l] +
@@ -417,8 +418,8 @@ ALWAYS_INLINE void see_nothing(const struct filter_lanes *lanes, float separatio
     for (int l = 0; l < FILTER_LANES; l++) {
         float t = lanes->step[l] * separation;
         t = t > before[l] ? t : before[l];
+        t = t <= lanes->blind[l] ? t : INFINITY;
         own[l] = t;
-        t -= lanes->blind[l];
         least[l] = t < least[l] ? t : least[l];
     }
 }
@@ -451,7 +452,7 @@ ALWAYS_INLINE bool see_columns(const struct filter_taps *taps, const struct filt
     float smallest = INFINITY;
     for (int l = 0; l < FILTER_LANES; l++)
         smallest = least[l] < smallest ? least[l] : smallest;
-    return smallest <= 0;
+    return smallest < INFINITY;
 }
 
 typedef bool see_columns_function(const struct filter_taps *taps, const struct filter_lanes *lanes, int first, int last,
@@ -496,11 +497,11 @@ static int chunk_column(const struct side *side, int chunk)
     return side->step > 0 ? chunk * CHUNK : -1 - chunk * CHUNK;
 }
 
-static bool any_live(const struct filter_lanes *lanes, const float *angles)
+static bool any_live(const float *angles)
 {
     bool live = false;
     for (int l = 0; l < FILTER_LANES; l++)
-        live = live || angles[l] <= lanes->blind[l];
+        live = live || angles[l] < INFINITY;
     return live;
 }
 
@@ -523,7 +524,7 @@ static void see_side(const struct filter_taps *taps, const struct filter_lanes *
 {
     const int first = side->first, last = side->last;
     /* Column 0 belongs to the right; from it the left begins anew. */
-    bool anew = side->step < 0 && dy != 0 && any_live(lanes, above[0]), live = false;
+    bool anew = side->step < 0 && dy != 0 && any_live(above[0]), live = false;
     int chunk = anew ? 0 : first, end = anew && last < 0 ? 0 : last;
     side->first = 0;
     side->last = -1;
@@ -534,7 +535,7 @@ static void see_side(const struct filter_taps *taps, const struct filter_lanes *
     if (chunk > 0)
         close_column(here, chunk_column(side, chunk) - side->step);
     if (dy != 0 && last >= 0)
-        end += any_live(lanes, above[chunk_column(side, last + 1) - side->step]);
+        end += any_live(above[chunk_column(side, last + 1) - side->step]);
     for (; chunk <= end || live; chunk++) {
         int from = chunk_column(side, chunk), to = from + side->step * (CHUNK - 1);
         if (abs(from) > side->limit)

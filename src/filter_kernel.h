@@ -71,8 +71,8 @@ struct filter_lanes {
     /* For filter_see alone: */
     float across[2][3][FILTER_LANES];  /* unit vectors at right angles to the direction and to each other */
     float reach[FILTER_LANES];         /* largest tan^2(theta) of the lobe */
-    float blind[FILTER_LANES];         /* nothing beyond a tap of a larger tan^2(theta) is seen within reach; -1: an
-                                          unused lane */
+    float blind[FILTER_LANES];         /* nothing beyond a tap of a larger tan^2(theta) is looked at; -1: an unused
+                                          lane */
     float step[FILTER_LANES];          /* tan^2(theta) at least, per pixel^2, where no endpoint is known */
     float hidden;                      /* how many times larger tan^2(theta) is of what hides a tap wholly; half as
                                           many times: not at all */

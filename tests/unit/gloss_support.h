@@ -349,7 +349,8 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                     before = fmin(ways[v0 * width + u0], ways[v1 * width + u1]);
                 }
                 if (!scene_glossy(gbuffer, u, v)) {
-                    ways[v * width + u] = fmax(before, gradient * (dx * dx + dy * dy));
+                    double way = fmax(before, gradient * (dx * dx + dy * dy));
+                    ways[v * width + u] = way <= 1.21 * reach ? way : INFINITY;
                     continue;
                 }
                 double t = oracle_tangent(gbuffer, x, y, u, v), area = areas[v * width + u], direction[3];
@@ -357,7 +358,7 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                 double distance = oracle_direction(gbuffer, x, y, u, v, direction);
                 double nearest = fmax(distance * distance, from_own * from_own / 10);
                 double solid = area / (nearest + area / (2 * pi)), weight = pow(1 + t, -p / 2);
-                ways[v * width + u] = fmax(before, t);
+                ways[v * width + u] = fmax(before, t) <= 1.21 * reach ? fmax(before, t) : INFINITY;
                 double in_view = before > 0 ? fmax(0, fmin(4 * t / before - 1, 1)) : 1;
                 double f = t <= reach ? in_view * fmax(weight - floor_weight, 0) * solid : 0;
                 double cosine_at = 0, sum = 0, at[3];
