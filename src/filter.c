@@ -31,13 +31,9 @@ static const double pi = 3.14159265358979324;
 /* In units of the taps, whose farthest position is at 2^20: 1e-15 of that. */
 static const double least_distance = 1e-9;
 
-/* How many times larger tan^2(theta) is of what hides an endpoint wholly: twice the angle. What is near the rim of a
- * thing that stands before it is often seen past its other side. */
-static const float hidden_ratio = 4.0f;
-
-/* How many times larger than the lobe's tan^2(theta) is where nothing is looked for any more: 10 % of the angle are left
- * to bumps. What comes back into the lobe from beyond is hidden but for its rim. */
-static const float blind_ratio = 1.21f;
+/* How many times larger than the lobe's largest tan^2(theta) is that beyond which nothing is seen any more, and the
+ * share of that over which what is seen fades out. */
+static const double blind_ratio = 1.21, fade_share = 0.7;
 
 /* See help_needed(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 16, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.02;
@@ -640,12 +636,12 @@ static void blur_best_lanes(struct filter *filter, int x, int y, float *scratch)
     const bool everything = filter->options->without & FILTER_WITHOUT_VISIBILITY;
     lanes.limit_px = (int)filter->radius_limit_px;
     lanes.floor = (float)filter->floor;
-    lanes.hidden = everything ? FLT_MAX : hidden_ratio;
     for (int l = 0; l < FILTER_LANES; l++) {
         if (!used[l])
             continue;
         lanes.reach[l] = (float)lobe_reach(filter, exponent_at(filter, x + l, y));
-        lanes.blind[l] = everything ? FLT_MAX : lanes.reach[l] * blind_ratio;
+        lanes.blind[l] = everything ? FLT_MAX : (float)((double)lanes.reach[l] * blind_ratio);
+        lanes.fade[l] = everything ? 1 : (float)(1 / ((double)lanes.reach[l] * blind_ratio * fade_share));
         lanes.step[l] = (float)gradient_least(filter, x + l, y);
         steep = steep && lanes.reach[l] <= FILTER_NARROW_REACH;
     }

@@ -369,9 +369,9 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
         float f = power_to_weight(-lanes->slope[l] * (narrow ? narrow_log2_of_1_plus(t) : log2_of_1_plus(t)));
         f -= lanes->floor;
         f = f > 0.0f ? f : 0.0f;
-        float seen = t * lanes->hidden - high; /* from 0 to high: more and more */
+        float seen = (lanes->blind[l] - high) * lanes->fade[l];
         seen = seen > 0.0f ? seen : 0.0f;
-        f = seen < high ? f * (seen / high) : f;
+        f = seen < 1.0f ? f * seen : f;
         f = t <= reach ? f : 0.0f;
         f *= solid_angle(area[l], nearest[l], c, qq);
         t = area[l] > 0.0f ? t : far;

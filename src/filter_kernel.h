@@ -71,11 +71,9 @@ struct filter_lanes {
     /* For filter_see alone: */
     float across[2][3][FILTER_LANES];  /* unit vectors at right angles to the direction and to each other */
     float reach[FILTER_LANES];         /* largest tan^2(theta) of the lobe */
-    float blind[FILTER_LANES];         /* nothing beyond a tap of a larger tan^2(theta) is looked at; -1: an unused
-                                          lane */
+    float blind[FILTER_LANES];         /* nothing beyond a tap of a larger tan^2(theta) is seen; -1: an unused lane */
+    float fade[FILTER_LANES];          /* by how much more is seen the smaller that tan^2(theta) is, up to all */
     float step[FILTER_LANES];          /* tan^2(theta) at least, per pixel^2, where no endpoint is known */
-    float hidden;                      /* how many times larger tan^2(theta) is of what hides a tap wholly; half as
-                                          many times: not at all */
     float floor;                       /* taken off cos^p; what would be negative is 0 */
     int limit_px;                      /* farthest tap from the lanes' own pixels */
 };
@@ -126,11 +124,12 @@ filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;
 /* Sums over the taps that every lane's a sees: weights (cos^p - floor) times the solid angle of the tap's pixel.
  *
  * All that the camera sees in the mirror along a straight line of pixels from the lane's own lies in one plane, and is
- * in front of what follows on the line. A tap is hidden from a when a tap before it on the line was at a larger angle
- * theta: then the line from a to its b passes behind that one. Its weight falls from all to none where that one's
- * tan^2(theta) is from hidden / 2 to hidden times as large: a sharp end would show in the picture. The taps that are
- * seen are thus one patch around the lane's own pixel, which grows until all of its rim is out of reach. On the way to
- * a tap lie both neighbours between which the straight line comes in, and the one with less in the way counts.
+ * in front of what follows on the line: what comes back into the lobe after a tap at a larger angle theta is another
+ * thing behind that one, or what another mirror saw. Of a tap the share min((blind - t) fade, 1) counts, with t the
+ * largest tan^2(theta) of the taps before it on the line: a share of all or none would show in the picture as lines.
+ * The taps that are seen are thus one patch around the lane's own pixel, which grows until all of its rim is out of
+ * reach. On the way to a tap lie both neighbours between which the straight line comes in, and the one with the smaller
+ * t counts.
  *
  * scratch: FILTER_SEE_COLUMNS(width) * 3 * FILTER_LANES floats, aligned to 64 bytes, with any content. */
 typedef void filter_see(const struct filter_taps *taps, const struct filter_lanes *lanes, float *scratch,

@@ -359,7 +359,7 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                 double nearest = fmax(distance * distance, from_own * from_own / 10);
                 double solid = area / (nearest + area / (2 * pi)), weight = pow(1 + t, -p / 2);
                 ways[v * width + u] = fmax(before, t) <= 1.21 * reach ? fmax(before, t) : INFINITY;
-                double in_view = before > 0 ? fmax(0, fmin(4 * t / before - 1, 1)) : 1;
+                double in_view = isinf(before) ? 0 : fmax(0, fmin((1 - before / (1.21 * reach)) / 0.7, 1));
                 double f = t <= reach ? in_view * fmax(weight - floor_weight, 0) * solid : 0;
                 double cosine_at = 0, sum = 0, at[3];
                 for (int i = 0; i < 3; i++) {
