@@ -127,7 +127,8 @@ closed() {
 oiiotool passes.exr --resize 1000x1000 --attrib:type=string compression none -o large.exr
 check "passes into a closed pipe" closed "$povgloss" passes scene.pov "$library" +W200 +H150 --quiet -o -
 check "render into a closed pipe" \
-    closed "$povgloss" render scene.pov "$library" +W300 +H200 --quiet --subsample 4 --format exr -o -
+    closed "$povgloss" render scene.pov "$library" +W300 +H200 --quiet --subsample 4 --phong inf \
+    --format exr -o -
 check "glossfilter into a closed pipe" closed "$glossfilter" large.exr --phong inf --format exr -o -
 
 no_input() {
