@@ -38,8 +38,8 @@ static const double blind_ratio = 1.21, fade_share = 0.7;
 /* See help_needed(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 16, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.02;
 
-/* How many times larger than from its own a the solid angle of a pixel may be from another: from so near it is no longer
- * one point. */
+/* How many times larger than from its own a the solid angle of a pixel may be from another: from so near it is no
+ * longer one point. */
 static const double most_enlarged = 10;
 
 /* Of fit_plane() and dim_unseen(). */

@@ -133,8 +133,8 @@ ALWAYS_INLINE float narrow_log2(float y)
     return p * y;
 }
 
-/* Solid angle of a tap's pixel as seen from a lane's a: its area over the distance squared, which counts as no less than
- * `nearest`; 2 pi at most. */
+/* Solid angle of a tap's pixel as seen from a lane's a: its area over the distance squared, which counts as no less
+ * than `nearest`; 2 pi at most. */
 ALWAYS_INLINE float solid_angle(float area, float nearest, float c, float qq)
 {
     const float per_hemisphere = 0.159154943f;
