@@ -271,12 +271,10 @@ static double ray_step(const struct filter *filter, int x, int y, int right, int
 /* Area across the ray that a glossy pixel stands for at its endpoint (Igehy, "Tracing ray differentials", 1999); for a
  * direction its solid angle. What neighbours' rays meet has no part in it: they may leap to another thing. Without
  * neighbours on one axis it is a square, without any it is next to nothing. */
-static double area_at(const struct filter *filter, int x, int y)
+static double area_at(const struct filter *filter, int x, int y, double distance)
 {
-    float a[3];
-    double own[3], across[3] = {0}, down[3] = {0}, area;
-    position_at(filter, x, y, a);
-    const double distance = direction_to(filter, a, x, y, own), least = 1e-12 * distance * distance;
+    const double least = 1e-12 * distance * distance;
+    double across[3] = {0}, down[3] = {0}, area;
     double width = ray_step(filter, x, y, 1, 0, across), height = ray_step(filter, x, y, 0, 1, down);
     if (filter->options->without & FILTER_WITHOUT_DENSITY) {
         area = 1e-6 * distance * distance;
@@ -304,7 +302,7 @@ static void areas_fill(void *context, int first, int end)
                 continue;
             position_at(filter, x, y, a);
             double distance = direction_to(filter, a, x, y, own);
-            tap[FILTER_PLANE_AREA * plane] = (float)fmax(area_at(filter, x, y), 1e-30);
+            tap[FILTER_PLANE_AREA * plane] = (float)fmax(area_at(filter, x, y, distance), 1e-30);
             tap[FILTER_PLANE_NEAREST * plane] = (float)(distance * distance / most_enlarged);
         }
 }

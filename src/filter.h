@@ -52,8 +52,9 @@ struct filter_options filter_options_default(void);
  * theta = 0 by a plane fitted to it with the weights f, within the range of what is seen (without the fit, sum f L0 /
  * sum f).
  * - That area: of the pixel's ray, the cross product of its shifts at b' to the next pixel across and down (of the two
- *   neighbours on an axis the one that shifts it less). From a it is the area over the distance from a squared, less
- *   where that comes near a hemisphere: A / (r^2 + A / 2 pi).
+ *   neighbours on an axis the one that shifts it less). From a it is the area over the distance from a squared, at
+ *   most 10 times what it is from its own a', and less where that comes near a hemisphere: A / (max(r^2, r'^2 / 10) +
+ *   A / 2 pi).
  * - Seen: see filter_see in filter_kernel.h. A non-glossy pixel hides what a surface that goes on like the pixel's own
  *   would no longer reflect.
  * - Where what is seen covers little of the lobe and single things are much brighter than the rest of it, the rest is
