@@ -400,6 +400,23 @@ static bool names_clear(const struct scene_file *file, int token)
     return in_list(file, token, clear_words) || has_fact(file, token, NAME_CLEAR);
 }
 
+/* The token after what begins at `token` and isn't transparent, whatever its names mean: the three components of `rgb <R,
+ * G, B>`, or a random number; `token` itself where there is none. `rgb C` is as transparent as C. */
+static int opaque_end(const struct scene_file *file, int token)
+{
+    const struct token *tokens = file->list.tokens;
+    if (is_word(file, token, "rand") && has_parentheses(file, token))
+        return tokens[token + 1].match + 1;
+    if (!is_mark(file, token, "<") || !(is_word(file, token - 1, "rgb") || is_word(file, token - 1, "srgb")))
+        return token;
+    int commas = 0, end = token + 1;
+    for (; end < file->list.count - 1 && !is_mark(file, end, ">"); end++) {
+        commas += is_mark(file, end, ",");
+        end = is_mark(file, end, "(") && tokens[end].match > 0 ? tokens[end].match : end;
+    }
+    return commas == 2 ? end + 1 : token;
+}
+
 static enum result count_clear(struct scene *scene, struct error *err)
 {
     for (int i = 0; i < scene->file_count; i++) {
@@ -408,9 +425,11 @@ static enum result count_clear(struct scene *scene, struct error *err)
         file->clear = calloc(1, size);
         if (!file->clear)
             return error_memory(err, (double)size);
-        for (int token = 0; token < file->list.count; token++)
-            file->clear[token + 1] = file->clear[token] + (names_clear(file, token) ||
-                                                            has_fact(file, token, NAME_PARAMETER));
+        for (int token = 0, opaque = 0; token < file->list.count; token++) {
+            opaque = token < opaque ? opaque : opaque_end(file, token);
+            bool clear = names_clear(file, token) || has_fact(file, token, NAME_PARAMETER);
+            file->clear[token + 1] = file->clear[token] + (clear && token >= opaque);
+        }
         for (int token = 0; token < file->list.count; token++)
             scene->clear_default |= (is_directive(file, token, "default") || is_word(file, token, "default")) &&
                                     opens_block(file, token) &&
@@ -437,9 +456,10 @@ static void note_clear_name(struct scene *scene, const struct scene_file *file, 
     if (macro)
         note_parameters(scene, file, name);
     int last = macro ? end_of_macro(file, token) : last_of_value(file, name + 1);
-    for (int word = name + 1; word <= last; word++) {
-        clear |= names_clear(file, word);
-        unknown |= !macro && has_fact(file, word, NAME_PARAMETER);
+    for (int word = name + 1, opaque = 0; word <= last; word++) {
+        opaque = word < opaque ? opaque : opaque_end(file, word);
+        clear |= word >= opaque && names_clear(file, word);
+        unknown |= word >= opaque && !macro && has_fact(file, word, NAME_PARAMETER);
     }
     if (clear)
         note_fact(scene, file, name, NAME_CLEAR);

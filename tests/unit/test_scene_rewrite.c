@@ -425,6 +425,11 @@ static void copy__pigments_that_may_be_transparent__looked_at_by_povray(void **s
         {CODED, "#declare A = B; #declare B = rgbt 1; pigment { A }",
          "#declare A = B; #ifdef (povgloss_of_1) #declare povgloss_of_0 = povgloss_of_1; #end #declare B = rgbt 1; " COVER("pigment { A }", "object")},
         {CODED, "#macro M(C) pigment { C } #end", "#macro M(C) " COVER("pigment { C }", "object") " #end"},
+        /* Three components have no transparency, and a random number is one of them; a fourth, or a factor, may be anything. */
+        {CODED, "#macro M(C, S) #local R = rand(S); sphere { 0, 1 pigment { rgb <C, (C > 1 ? 2 : C), R>*R } } #end",
+         "#macro M(C, S) #local R = rand(S); sphere { 0, 1 transform {} } #end"},
+        {CODED, "#macro M(C) pigment { srgb <1, 2, 3>*C } #end", "#macro M(C) " COVER("pigment { srgb <1, 2, 3>*C }", "object") " #end"},
+        {CODED, "#macro M(C) pigment { rgb <1, 2, 3, C> } #end", "#macro M(C) " COVER("pigment { rgb <1, 2, 3, C> }", "object") " #end"},
         {CODED, "#declare A = rgb 1; // rgbt\npigment { A }", "#declare A = rgb 1; // rgbt\ntransform {}"},
         {REFLECTANCE, "#declare F = function { pigment { rgbt 1 } }", NULL},
         {REFLECTANCE, "pigment { rgb 1 }", NULL},
