@@ -35,10 +35,11 @@ static const char mirror_exponent[] =
     "#local povgloss_v = 65535*povgloss_exponent_code(povgloss_phong);\n"
     "  rgb (povgloss_phong < povgloss_maps_from)*<floor(povgloss_v)/65535, povgloss_v - floor(povgloss_v), 1>";
 
-/* For mirrored rays only. */
-#define SKY(colour) \
-    "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n" \
-    "sky_sphere { pigment { rgb " colour " } }\n"
+/* The sky of the camera's own rays, over that of mirrored ones. */
+#define BLACK_SKY \
+    "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n"
+#define SKY(colour) BLACK_SKY "sky_sphere { pigment { rgb " colour " } }\n"
+static const char black_sky[] = BLACK_SKY;
 static const char sky_half[] = SKY("pow(0.5, 20)");
 static const char sky_white[] = SKY("1");
 #define MIRRORS "no_reflection no_shadow no_radiosity"
@@ -113,7 +114,8 @@ const struct pass pass_table[PASS_COUNT] = {
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS, .coded = true},
                        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
-                       .coded_sky = true},
+                       .coded_sky = true,
+                       .trailer = black_sky},
     [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
                            .margin = true,
                            .glossy_part = true,
@@ -606,10 +608,15 @@ struct pass pass_of(const struct scene *scene, enum pass_id id)
         pass.second.copy = SCENE_COPY_REFLECTION;
         pass.second.finish_end = id == PASS_HAZE ? end_haze_of_reflection : end_reflection;
     }
-    /* An aperture sees glossy surfaces beyond the silhouettes of the exponent pass, which has none. */
-    if (scene->focal_blur && !pass.codes)
+    /* An aperture sees glossy surfaces beyond the silhouettes of codes, which have none. */
+    if (id == pass_of_glossy(scene) || (scene->focal_blur && !pass.codes))
         pass.glossy_part = false;
     return pass;
+}
+
+enum pass_id pass_of_glossy(const struct scene *scene)
+{
+    return pass_exponents_differ(scene) ? PASS_EXPONENT : PASS_ENDPOINT;
 }
 
 enum result pass_discovery_text(const struct scene *scene, struct buffer *text, struct error *err)
@@ -698,6 +705,8 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
         return false;
     if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;
+    if (id == PASS_EXPONENT && !pass_exponents_differ(scene))
+        return false;
     /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye,
      * too. */
     if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line && !pass_weights_specular(scene))
@@ -709,7 +718,7 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
 
 bool pass_exponents_differ(const struct scene *scene)
 {
-    return scene->exponent < 0 || scene->mixes || scene->refracts;
+    return scene->exponent < 0 || scene->mixes || (scene->refracts && scene->may_be_clear);
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])
