@@ -72,23 +72,21 @@ void position_code_unmix(struct image *high, struct image *low, const struct ima
         }
 }
 
-/* The point of the cube [-1, 1]^3 at this place of its net; one next to the net is taken to the border, in which the
- * last digit or an unmixing may leave it. */
+/* The point of the cube [-1, 1]^3 at this place of its net; one beside the net, where the last digit or an unmixing may
+ * leave it, is taken to the nearest face. */
 static void fold(double x, double y, double p[3])
 {
-    const double slack = 1e-5;
-    const int face = x < 0.25 ? 0 : x < 0.5 ? 1 : x < 0.75 ? 2 : 3;
-    const bool cap = (y > 2 / 3.0 || y < 1 / 3.0) && x > 0.25 - slack && x < 0.5 + slack;
-    const double side = cap ? 1 : face;
-    const double u = fmax(-1, fmin(1, 8 * (x - side / 4) - 1));
+    const double beside_caps = fabs(x - 3 / 8.0) - 1 / 8.0, beyond_sides = fabs(y - 0.5) - 1 / 6.0;
+    const bool cap = beyond_sides > fmax(0, beside_caps);
+    const int face = cap ? 1 : x < 0.25 ? 0 : x < 0.5 ? 1 : x < 0.75 ? 2 : 3;
+    const double u = fmax(-1, fmin(1, 8 * (x - face / 4.0) - 1));
     if (cap) {
-        const double v = 6 * (y > 0.5 ? 1 - y : y) - 1;
         p[0] = u;
         p[1] = y > 0.5 ? 1 : -1;
-        p[2] = v;
+        p[2] = 6 * (y > 0.5 ? 1 - y : y) - 1;
         return;
     }
-    /* The left face is seen from -x towards z, the front from z towards x, and so on. */
+    /* Along the four sides u is z, x, -z and -x. */
     p[0] = face == 0 ? -1 : face == 1 ? u : face == 2 ? 1 : -u;
     p[1] = fmax(-1, fmin(1, 6 * (y - 1 / 3.0) - 1));
     p[2] = face == 0 ? u : face == 1 ? 1 : face == 2 ? -u : -1;

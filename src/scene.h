@@ -35,8 +35,8 @@ enum scene_block {
     SCENE_BLOCK_MATERIAL = 4,
     SCENE_BLOCK_LIGHT_GROUP = 8,
     SCENE_BLOCK_MESH2 = 16,
-    SCENE_BLOCK_SKY = 64,
     SCENE_BLOCK_ARRAY = 32, /* the braces that fill one, where POV-Ray takes no directive and no macro */
+    SCENE_BLOCK_SKY = 64,
 };
 
 /* What the picture of a glossy scene lacks. */

@@ -167,6 +167,32 @@ static void decode__directions__within_1e6_and_w_0(void **state)
     image_free(&alone);
 }
 
+/* An unmixing leaves an error in the digits: next to an edge of the cube none takes the point to another place. */
+static void decode__next_to_the_net__the_nearest_face(void **state)
+{
+    (void)state;
+    static const double edges[][3] = {{2, 2, 0.6}, {-2, -2, 0.6}, {0.6, 2, 2}, {0.6, -2, -2}, {2, 0.6, -2}, {-2, 0.6, -2}};
+    enum { EDGES = sizeof edges / sizeof *edges, STEPS = 9 };
+    struct image high, low, decoded;
+    struct error err;
+    make_images(EDGES, STEPS, &high, &low);
+    for (int y = 0; y < STEPS; y++)
+        for (int x = 0; x < EDGES; x++) {
+            encode(edges[x], false, &high, &low, x, y);
+            for (int axis = 0; axis < 2; axis++) {
+                double v = (double)image_row(&high, axis, y)[x] + 3e-5 * (axis ? y / 3 - 1 : y % 3 - 1);
+                image_row(&high, axis, y)[x] = (float)v;
+                image_row(&low, axis, y)[x] = (float)(16384 * v - floor(16384 * v));
+            }
+        }
+    assert_ok(position_code_decode(&high, &low, &decoded, &err), err);
+    for (int y = 0; y < STEPS; y++)
+        for (int x = 0; x < EDGES; x++)
+            for (int axis = 0; axis < 3; axis++)
+                assert_near(image_row(&decoded, axis, y)[x], edges[x][axis], 2e-3);
+    free_images(&high, &low, &decoded);
+}
+
 static void decode__black__all_zero(void **state)
 {
     (void)state;
@@ -302,6 +328,7 @@ int main(void)
         cmocka_unit_test(decode__positions_of_any_size__relative_error_1e7),
         cmocka_unit_test(decode__carry_between_the_digits__no_jump),
         cmocka_unit_test(decode__directions__within_1e6_and_w_0),
+        cmocka_unit_test(decode__next_to_the_net__the_nearest_face),
         cmocka_unit_test(decode__black__all_zero),
         cmocka_unit_test(decode__middle_grey__no_nan),
         cmocka_unit_test(decode__two_sizes__refused_with_both),
