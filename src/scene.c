@@ -400,21 +400,6 @@ static bool names_clear(const struct scene_file *file, int token)
     return in_list(file, token, clear_words) || has_fact(file, token, NAME_CLEAR);
 }
 
-/* The token after the three components of `rgb <R, G, B>` that begin at `token`, which aren't transparent whatever their
- * names mean; `token` itself where there are none. `rgb C` is as transparent as C. */
-static int opaque_end(const struct scene_file *file, int token)
-{
-    const struct token *tokens = file->list.tokens;
-    if (!is_mark(file, token, "<") || !(is_word(file, token - 1, "rgb") || is_word(file, token - 1, "srgb")))
-        return token;
-    int commas = 0, end = token + 1;
-    for (; end < file->list.count - 1 && !is_mark(file, end, ">"); end++) {
-        commas += is_mark(file, end, ",");
-        end = is_mark(file, end, "(") && tokens[end].match > 0 ? tokens[end].match : end;
-    }
-    return commas == 2 ? end + 1 : token;
-}
-
 static enum result count_clear(struct scene *scene, struct error *err)
 {
     for (int i = 0; i < scene->file_count; i++) {
@@ -423,10 +408,8 @@ static enum result count_clear(struct scene *scene, struct error *err)
         file->clear = calloc(1, size);
         if (!file->clear)
             return error_memory(err, (double)size);
-        for (int token = 0, opaque = 0; token < file->list.count; token++) {
-            opaque = token < opaque ? opaque : opaque_end(file, token);
-            file->clear[token + 1] = file->clear[token] + (token >= opaque && names_clear(file, token));
-        }
+        for (int token = 0; token < file->list.count; token++)
+            file->clear[token + 1] = file->clear[token] + names_clear(file, token);
         for (int token = 0; token < file->list.count; token++)
             scene->clear_default |= (is_directive(file, token, "default") || is_word(file, token, "default")) &&
                                     opens_block(file, token) &&
@@ -439,10 +422,8 @@ static enum result count_clear(struct scene *scene, struct error *err)
 static bool says_clear(const struct scene_file *file, int first, int end)
 {
     bool clear = false;
-    for (int token = first, opaque = first; token < end; token++) {
-        opaque = token < opaque ? opaque : opaque_end(file, token);
-        clear |= token >= opaque && names_clear(file, token);
-    }
+    for (int token = first; token < end; token++)
+        clear |= names_clear(file, token);
     return clear;
 }
 

@@ -428,13 +428,6 @@ static void copy__pigments_that_may_be_transparent__looked_at_by_povray(void **s
          "#macro M(C, D) " COVER("pigment { D }", "object") " #end M(1, 2) #macro N(E) M(E, rgbt E) #end"},
         {CODED, "#macro M(C, D) sphere { 0, 1 pigment { C } } #end M(1, rgbt 2)",
          "#macro M(C, D) sphere { 0, 1 transform {} } #end M(1, rgbt 2)"},
-        /* Three components have no transparency; a fourth, or a factor, may be anything. */
-        {CODED, "#declare C = rgbt 1; #declare D = rgb <C, (C > 1 ? 2 : C), 3>; sphere { 0, 1 pigment { D } }",
-         "#declare C = rgbt 1; #declare D = rgb <C, (C > 1 ? 2 : C), 3>; sphere { 0, 1 transform {} }"},
-        {CODED, "#declare C = rgbt 1; pigment { srgb <1, 2, 3>*C }",
-         "#declare C = rgbt 1; " COVER("pigment { srgb <1, 2, 3>*C }", "object")},
-        {CODED, "#declare C = rgbt 1; pigment { rgb <1, 2, 3, C> }",
-         "#declare C = rgbt 1; " COVER("pigment { rgb <1, 2, 3, C> }", "object")},
         {CODED, "#declare A = rgb 1; // rgbt\npigment { A }", "#declare A = rgb 1; // rgbt\ntransform {}"},
         {REFLECTANCE, "#declare F = function { pigment { rgbt 1 } }", NULL},
         {REFLECTANCE, "pigment { rgb 1 }", NULL},
