@@ -2,16 +2,18 @@
 """Error against time: the filters, --rays N, and what there is in their place, by the truth of `povgloss probe`.
 
 usage: scripts/trade.py [SCENE.pov[:OPTION,...] ...]     (default: povscenes/*.pov and two of POV-Ray's examples)
-Needs numpy, OpenEXR, pyoidn and matplotlib; scripts/trade.sh calls it with them. Writes docs/trade.csv, trade.png and the
-tables of docs/accuracy.md. BIN: folder of the programs; OUT: scratch folder, kept, and not measured again.
+Needs numpy, OpenEXR, pyoidn, matplotlib and flip-evaluator; scripts/trade.sh calls it with them. Writes
+docs/trade.csv, trade.png and the tables of docs/accuracy.md. BIN: folder of the programs; OUT: scratch folder, kept:
+what is there is not measured again (of each scene ours.csv: what has the filter in it; peers.csv: what hasn't;
+probes.csv and whole.exr: the truth).
 
 Time is CPU seconds of all processes, POV-Ray's included: another program on the machine doesn't count. Peers:
   brute       povgloss brute: N rays of the lobe at each glossy pixel
   OIDN        brute, denoised by Intel Open Image Denoise (HDR, colour alone)
-  normals     what POV-Ray's users do: normals of tiny bumps, N at each pixel; the lobe's width is fitted at normal incidence
+  normals     what POV-Ray's users do: normals of tiny bumps, N at each pixel, as wide as the lobe at normal incidence
 """
-import csv, glob, os, resource, shutil, subprocess, sys
-import numpy as np, OpenEXR, pyoidn
+import csv, glob, os, resource, subprocess, sys
+import flip_evaluator, numpy as np, OpenEXR, pyoidn
 
 BIN = os.path.abspath(os.environ.get('BIN', 'build/bin'))
 OUT = os.path.abspath(os.environ.get('OUT', 'build/trade'))
@@ -19,6 +21,10 @@ WIDTH, HEIGHT = 240, 180
 SIZE = [f'+W{WIDTH}', f'+H{HEIGHT}']
 ALL, TRADE = (30, 100, 300, 1000, 10000), (100, 1000)
 RAYS, BRUTE, NORMALS = (1, 4, 16), (4, 16, 64), (4, 16, 64)
+SETTINGS = ('--margin 10%', '--subsample 2', '--subsample 4', '--max-radius 64', '--max-radius 32', '--max-radius 16',
+            '--energy 0.99', '--mode paper', '--mode paper --weights table', '--mode paper --weights gauss',
+            '--mode paper --window square', '--mode paper --radius-step 4')
+WHOLE = 256  # rays of the lobe at every pixel of the image that FLIP compares with, at p = TRADE[0]
 EXAMPLES = '/usr/share/doc/povray/examples/advanced/'
 BUMPS = 3.3  # bump_size^2 * p: at normal incidence the bumps' lobe then has the mean cosine of cos^p
 
@@ -37,7 +43,13 @@ def read(path, group):
         return np.stack([file.channels()[group + c].pixels.astype(np.float32) for c in 'RGB'], -1)
 
 
-ERRORS = ('rmse', 'p95', 'largest', 'relative_mse', 'bias')  # relative: over value^2 + 0.01; bias: the signed mean
+def srgb(linear):
+    x = np.clip(linear, 0, 1)
+    return np.where(x < 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055).astype(np.float32)
+
+
+# relative: over value^2 + 0.01; bias: signed mean; flip: mean over glossy pixels, of base + reflectance x image as sRGB
+ERRORS = ('rmse', 'p95', 'largest', 'relative_mse', 'bias', 'flip')
 
 
 def errors(image, probes):
@@ -52,39 +64,67 @@ class Scene:
         self.path, self.options = path, options.split(',') if options else []
         self.name = os.path.basename(path)[:-4]
         self.folder = f'{OUT}/{self.name}'
-        self.rows = []
+        self.passes_file = f'{self.folder}/passes.exr'
 
     def povgloss(self, command, *options):
         return timed(f'{BIN}/povgloss', command, self.path, *SIZE, *self.options, '--quiet', *options)
 
+    def flip(self, image):
+        base, reflectance = read(self.passes_file, ''), read(self.passes_file, 'reflectance.')
+        truth, seen = (srgb(base + reflectance * x) for x in (read(f'{self.folder}/whole.exr', 'glossy.'), image))
+        wrong = flip_evaluator.evaluate(truth, seen, 'LDR', applyMagma=False, computeMeanError=False)[0]
+        return wrong[reflectance.max(-1) > 0].mean()
+
     def note(self, p, method, n, seconds, image):
-        found = [round(float(error), 5) for error in errors(image, self.probes[p])]
-        self.rows.append((self.name, p, method, n, round(seconds, 3), *found))
+        found = [*errors(image, self.probes[p]), *([self.flip(image)] if p == TRADE[0] else [])]
+        self.rows.append((self.name, p, method, n, round(seconds, 3), *(round(float(error), 5) for error in found)))
         print(*self.rows[-1], flush=True)
 
-    def prepare(self):
-        os.makedirs(self.folder)
-        self.passes = self.povgloss('passes', '--keep', f'{self.folder}/keep', '--no-check', '-o', f'{self.folder}/passes.exr')
-        self.povgloss('probe', '--grid', '20', *[f'--phong={p}' for p in ALL], '-o', f'{self.folder}/probes.csv')
-        rows = list(csv.DictReader(open(f'{self.folder}/probes.csv')))
+    def read_truth(self):
+        os.makedirs(self.folder, exist_ok=True)
+        probes, whole = f'{self.folder}/probes.csv', f'{self.folder}/whole.exr'
+        if not os.path.exists(probes):
+            self.povgloss('probe', '--grid', '40', '--error', '0.004', *[f'--phong={p}' for p in ALL], '-o', probes)
+        if not os.path.exists(whole):
+            self.povgloss('brute', '--phong', str(TRADE[0]), '--samples', str(WHOLE), '--seed', '7', '--layers',
+                          '-o', whole)
+        rows = list(csv.DictReader(open(probes)))
         self.probes = {}
         for p in ALL:
             chosen = [row for row in rows if float(row['phong']) == p]
             self.probes[p] = {'x': [int(r['x']) for r in chosen], 'y': [int(r['y']) for r in chosen],
                               'value': np.array([[float(r[c]) for c in 'RGB'] for r in chosen])}
 
+    def filter(self, p, method, seconds, passes, *options):
+        image = f'{self.folder}/filtered.exr'
+        phong = [] if 'inf' in options else ['--phong', str(p)]
+        seconds += timed(f'{BIN}/glossfilter', passes, *phong, *options, '--quiet', '--layers', '-o', image)
+        self.note(p, method, 0, seconds, read(image, 'glossy.'))
+
     def filters(self, p):
-        for method, options in ('sharp', ['--phong', 'inf']), ('paper', ['--mode', 'paper']), ('best', []):
-            options = options if 'inf' in options else ['--phong', str(p), *options]
-            seconds = timed(f'{BIN}/glossfilter', f'{self.folder}/passes.exr', *options, '--quiet', '--layers',
-                            '-o', f'{self.folder}/filtered.exr')
-            self.note(p, method, 0, self.passes + seconds, read(f'{self.folder}/filtered.exr', 'glossy.'))
+        self.filter(p, 'sharp', self.passes, self.passes_file, '--phong', 'inf')
+        self.filter(p, 'paper', self.passes, self.passes_file, '--mode', 'paper')
+        self.filter(p, 'best', self.passes, self.passes_file)
+
+    def settings(self):
+        for setting in SETTINGS:
+            passes, seconds, options = self.passes_file, self.passes, setting.split()
+            if options[0] in ('--margin', '--subsample'):
+                passes = f'{self.folder}/{options[0][2:]}.exr'
+                seconds = self.povgloss('passes', '--no-check', *options, '-o', passes)
+                options = []
+            for p in TRADE:
+                self.filter(p, setting, seconds, passes, *options)
 
     def rays(self, p):
         image = f'{self.folder}/rays.exr'
         for n in RAYS:
-            seconds = self.povgloss('render', '--no-check', '--phong', str(p), '--rays', str(n), '--layers', '-o', image)
+            seconds = self.povgloss('render', '--no-check', '--phong', str(p), '--rays', str(n), '--layers',
+                                    '-o', image)
             self.note(p, 'rays', n, seconds, read(image, 'glossy.'))
+
+    def brute(self, p):
+        image = f'{self.folder}/rays.exr'
         for n in BRUTE:
             seconds = self.povgloss('brute', '--phong', str(p), '--samples', str(n), '--layers', '-o', image)
             noisy = read(image, 'glossy.')
@@ -96,7 +136,7 @@ class Scene:
                 self.note(p, 'OIDN', n, seconds + after.ru_utime - before.ru_utime, clean)
 
     def normals(self, p):
-        """The specular pass in a larger picture, every pixel of which meets another bump, and the mean of each square."""
+        """The specular pass, larger: every pixel meets another bump, and the mean of each square is taken."""
         folder = f'{self.folder}/keep/specular'
         lines = open(f'{folder}/pass.inc').read().split('\n')
         at = max(i for i, line in enumerate(lines) if line.startswith('#default { pigment { povgloss_pigment }'))
@@ -105,25 +145,36 @@ class Scene:
         libraries = [f'+L../{name}' for name in sorted(os.listdir(f'{self.folder}/keep')) if name.startswith('lib')]
         for n in NORMALS:
             side = round(n ** 0.5)
-            seconds = timed('povray', '+Inormals.pov', '+L../copies', *libraries, '-A', '-D', '-GA', '+FE', '+Onormals.exr',
-                            f'+W{WIDTH * side}', f'+H{HEIGHT * side}', cwd=folder)
+            seconds = timed('povray', '+Inormals.pov', '+L../copies', *libraries, '-A', '-D', '-GA', '+FE',
+                            '+Onormals.exr', f'+W{WIDTH * side}', f'+H{HEIGHT * side}', cwd=folder)
             image = np.minimum(read(f'{folder}/normals.exr', ''), 65504)
             image = image.reshape(HEIGHT, side, WIDTH, side, 3).mean((1, 3))
             self.note(p, 'normals', n, self.passes + seconds, image)
 
-    def measure(self):
-        if os.path.exists(f'{self.folder}/rows.csv'):
-            self.rows = [(r[0], int(r[1]), r[2], int(r[3]), *map(float, r[4:]))
-                         for r in csv.reader(open(f'{self.folder}/rows.csv'))]
-            return
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.prepare()
+    def ours(self):
         for p in ALL:
             self.filters(p)
+        self.settings()
         for p in TRADE:
             self.rays(p)
+
+    def peers(self):
+        for p in TRADE:
+            self.brute(p)
             self.normals(p)
-        csv.writer(open(f'{self.folder}/rows.csv', 'w')).writerows(self.rows)
+
+    def measure(self):
+        parts = {f'{self.folder}/{part.__name__}.csv': part for part in (self.ours, self.peers)}
+        if not all(map(os.path.exists, parts)):
+            self.read_truth()
+            self.passes = self.povgloss('passes', '--keep', f'{self.folder}/keep', '--no-check', '-o', self.passes_file)
+        for path, part in parts.items():
+            if not os.path.exists(path):
+                self.rows = []
+                part()
+                csv.writer(open(path, 'w')).writerows(self.rows)
+        return [(r[0], int(r[1]), r[2], int(r[3]), *map(float, r[4:]))
+                for path in parts for r in csv.reader(open(path))]
 
 
 def needed_seconds(curve, error):
@@ -156,22 +207,53 @@ def table_filters(rows, names):
     return lines
 
 
+METHODS = [('best', 0)] + [('rays', n) for n in RAYS] + [('brute', n) for n in BRUTE] + \
+          [('OIDN', n) for n in BRUTE if n <= 16] + [('normals', n) for n in NORMALS]
+
+
+def method_names(methods):
+    return [f'{m} {n}' if n else m for m, n in methods]
+
+
+def table_settings(rows, names):
+    """Medians over the scenes of RMSE and CPU seconds in shares of best's."""
+    lines = ['| setting | ' + ' | '.join(f'RMSE, p = {p} | worst scene | seconds' for p in TRADE) + ' |',
+             '|---|' + '---|' * (3 * len(TRADE))]
+    for setting in SETTINGS:
+        cells = []
+        for p in TRADE:
+            ours = np.array([curve(rows, name, p, setting)[0] for name in names])
+            ratios = ours / [curve(rows, name, p, 'best')[0] for name in names]
+            worst = ratios[:, 1].argmax()
+            cells += [f'{np.median(ratios[:, 1]):.2f}', f'{ratios[worst, 1]:.2f} {names[worst]}',
+                      f'{np.median(ratios[:, 0]):.2f}']
+        lines.append(f'| `{setting}` | ' + ' | '.join(cells) + ' |')
+    return lines
+
+
+def table_flip(rows, names):
+    methods = [('sharp', 0), ('paper', 0)] + METHODS
+    lines = ['| scene | ' + ' | '.join(method_names(methods)) + ' |', '|---|' + '---|' * len(methods)]
+    flip = {r[:4]: r[10] for r in rows if r[1] == TRADE[0]}
+    found = np.array([[flip[name, TRADE[0], m, n] for m, n in methods] for name in names])
+    for name, line in zip(names + ['median'], [*found, np.median(found, 0)]):
+        lines.append(f'| {name} | ' + ' | '.join(f'{value:.3f}' for value in line) + ' |')
+    return lines
+
+
 def table_trade(rows, names):
-    methods = [('best', 0)] + [('rays', n) for n in RAYS] + [('brute', n) for n in BRUTE] + \
-              [('OIDN', n) for n in BRUTE if n <= 16] + [('normals', n) for n in NORMALS]
-    lines = ['| scene, p | ' + ' | '.join(f'{m} {n}' if n else m for m, n in methods) + ' |',
-             '|---|' + '---|' * len(methods)]
+    lines = ['| scene, p | ' + ' | '.join(method_names(METHODS)) + ' |', '|---|' + '---|' * len(METHODS)]
     for name in names:
         for p in TRADE:
-            cells = [next(f'{r[5]:.4f} {r[4]:.1f} s' for r in rows if r[:4] == (name, p, m, n)) for m, n in methods]
+            cells = [next(f'{r[5]:.4f} {r[4]:.1f} s' for r in rows if r[:4] == (name, p, m, n)) for m, n in METHODS]
             lines.append(f'| {name} {p} | ' + ' | '.join(cells) + ' |')
     return lines
 
 
 def table_speed(rows, names):
-    lines = ['| scene, p | ' + ' | '.join(f'rays {n} over {peer}' for peer in ('brute', 'normals') for n in (0,) + RAYS) + ' |',
-             '|---|' + '---|' * (2 * (1 + len(RAYS)))]
-    found = [[] for _ in range(2 * (1 + len(RAYS)))]
+    head = [f'rays {n} over {peer}' for peer in ('brute', 'normals') for n in (0,) + RAYS]
+    lines = ['| scene, p | ' + ' | '.join(head) + ' |', '|---|' + '---|' * len(head)]
+    found = [[] for _ in head]
     for name in names:
         for p in TRADE:
             ours = curve(rows, name, p, 'best') + curve(rows, name, p, 'rays')
@@ -194,8 +276,8 @@ def draw(rows, names):
     matplotlib.use('Agg')
     import matplotlib.pyplot as plt
     styles = {'paper': 's', 'best': 'o', 'rays': 'o-', 'brute': 'x--', 'OIDN': '^:', 'normals': '+--'}
-    columns = (len(names) + 1) // 2
-    figure, axes = plt.subplots(2, columns, figsize=(3.3 * columns, 6.4), squeeze=False)
+    lines = (len(names) + 3) // 4
+    figure, axes = plt.subplots(lines, 4, figsize=(13.2, 3.0 * lines + 0.4), squeeze=False)
     for axis in axes.flat[len(names):]:
         axis.axis('off')
     for axis, name in zip(axes.flat, names):
@@ -215,7 +297,7 @@ def draw(rows, names):
         row[0].set_ylabel(f'RMSE, p = {TRADE[0]}', fontsize=8)
     handles, labels = axes[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc='lower center', ncol=6, fontsize=8)
-    figure.tight_layout(rect=(0, 0.045, 1, 1))
+    figure.tight_layout(rect=(0, 0.09 / lines, 1, 1))
     figure.savefig('docs/trade.png', dpi=100)
 
 
@@ -225,19 +307,19 @@ def main():
     rows, names = [], []
     for text in texts:
         scene = Scene(text)
-        scene.measure()
-        rows += scene.rows
+        rows += scene.measure()
         names.append(scene.name)
     with open('docs/trade.csv', 'w') as file:
         writer = csv.writer(file, lineterminator='\n')
         writer.writerow(['scene', 'phong', 'method', 'samples', 'cpu_seconds', *ERRORS])
         writer.writerows(rows)
     draw(rows, names)
-    tables = {'filters': table_filters(rows, names), 'trade': table_trade(rows, names), 'speed': table_speed(rows, names)}
+    tables = {'filters': table_filters, 'settings': table_settings, 'trade': table_trade, 'speed': table_speed,
+              'flip': table_flip}
     text = open('docs/accuracy.md').read()
-    for name, lines in tables.items():
+    for name, table in tables.items():
         head, rest = text.split(f'<!-- {name} -->\n')
-        text = head + f'<!-- {name} -->\n' + '\n'.join(lines) + '\n' + rest[rest.index('\n<!-- end -->'):]
+        text = head + f'<!-- {name} -->\n' + '\n'.join(table(rows, names)) + '\n' + rest[rest.index('\n<!-- end -->'):]
     open('docs/accuracy.md', 'w').write(text)
 
 
