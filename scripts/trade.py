@@ -12,7 +12,7 @@ Time is CPU seconds of all processes, POV-Ray's included: another program on the
   OIDN        brute, denoised by Intel Open Image Denoise (HDR, colour alone)
   normals     what POV-Ray's users do: normals of tiny bumps, N at each pixel, as wide as the lobe at normal incidence
 """
-import csv, glob, os, resource, subprocess, sys
+import csv, glob, os, resource, shutil, subprocess, sys
 import flip_evaluator, numpy as np, OpenEXR, pyoidn
 
 BIN = os.path.abspath(os.environ.get('BIN', 'build/bin'))
@@ -38,9 +38,9 @@ def timed(*command, cwd=None):
     return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
 
 
-def read(path, group):
+def read(path, group, channels='RGB'):
     with OpenEXR.File(path, separate_channels=True) as file:
-        return np.stack([file.channels()[group + c].pixels.astype(np.float32) for c in 'RGB'], -1)
+        return np.stack([file.channels()[group + c].pixels.astype(np.float32) for c in channels], -1)
 
 
 def srgb(linear):
@@ -48,14 +48,24 @@ def srgb(linear):
     return np.where(x < 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055).astype(np.float32)
 
 
-# relative: over value^2 + 0.01; bias: signed mean; flip: mean over glossy pixels, of base + reflectance x image as sRGB
-ERRORS = ('rmse', 'p95', 'largest', 'relative_mse', 'bias', 'flip')
+# relative: over value^2 + 0.01; bias: signed mean; flip: mean over the glossy pixels of base + reflectance x image, as
+# sRGB; confidence: its rank correlation with the error. The last two are empty where there is none.
+ERRORS = ('rmse', 'p95', 'largest', 'relative_mse', 'bias', 'flip', 'confidence')
 
 
 def errors(image, probes):
     difference = image[probes['y'], probes['x']] - probes['value']
     return (np.sqrt((difference ** 2).mean()), np.percentile(abs(difference), 95), abs(difference).max(),
             (difference ** 2 / (probes['value'] ** 2 + 0.01)).mean(), difference.mean())
+
+
+def rank_correlation(a, b):
+    """Spearman's, equal values by their mean rank; 0 where all are equal."""
+    ranks = []
+    for values in a, b:
+        _, at, count = np.unique(values, return_inverse=True, return_counts=True)
+        ranks.append((np.cumsum(count) - count / 2)[at])
+    return np.corrcoef(*ranks)[0, 1] if all(np.ptp(r) > 0 for r in ranks) else 0.0
 
 
 class Scene:
@@ -75,9 +85,10 @@ class Scene:
         wrong = flip_evaluator.evaluate(truth, seen, 'LDR', applyMagma=False, computeMeanError=False)[0]
         return wrong[reflectance.max(-1) > 0].mean()
 
-    def note(self, p, method, n, seconds, image):
-        found = [*errors(image, self.probes[p]), *([self.flip(image)] if p == TRADE[0] else [])]
-        self.rows.append((self.name, p, method, n, round(seconds, 3), *(round(float(error), 5) for error in found)))
+    def note(self, p, method, n, seconds, image, confidence=''):
+        found = [round(float(error), 5) for error in errors(image, self.probes[p])]
+        flip = round(float(self.flip(image)), 5) if p == TRADE[0] else ''
+        self.rows.append((self.name, p, method, n, round(seconds, 3), *found, flip, confidence))
         print(*self.rows[-1], flush=True)
 
     def read_truth(self):
@@ -99,7 +110,12 @@ class Scene:
         image = f'{self.folder}/filtered.exr'
         phong = [] if 'inf' in options else ['--phong', str(p)]
         seconds += timed(f'{BIN}/glossfilter', passes, *phong, *options, '--quiet', '--layers', '-o', image)
-        self.note(p, method, 0, seconds, read(image, 'glossy.'))
+        self.note(p, method, 0, seconds, read(image, 'glossy.'), self.confidence(image, p) if method == 'best' else '')
+
+    def confidence(self, image, p):
+        at = self.probes[p]['y'], self.probes[p]['x']
+        error = ((read(image, 'glossy.')[at] - self.probes[p]['value']) ** 2).mean(-1)
+        return round(float(rank_correlation(read(image, 'confidence.', 'V')[at][:, 0], error)), 3)
 
     def filters(self, p):
         self.filter(p, 'sharp', self.passes, self.passes_file, '--phong', 'inf')
@@ -167,13 +183,14 @@ class Scene:
         parts = {f'{self.folder}/{part.__name__}.csv': part for part in (self.ours, self.peers)}
         if not all(map(os.path.exists, parts)):
             self.read_truth()
+            shutil.rmtree(f'{self.folder}/keep', ignore_errors=True)
             self.passes = self.povgloss('passes', '--keep', f'{self.folder}/keep', '--no-check', '-o', self.passes_file)
         for path, part in parts.items():
             if not os.path.exists(path):
                 self.rows = []
                 part()
                 csv.writer(open(path, 'w')).writerows(self.rows)
-        return [(r[0], int(r[1]), r[2], int(r[3]), *map(float, r[4:]))
+        return [(r[0], int(r[1]), r[2], int(r[3]), *(float(value) if value else '' for value in r[4:]))
                 for path in parts for r in csv.reader(open(path))]
 
 
@@ -241,6 +258,14 @@ def table_flip(rows, names):
     return lines
 
 
+def table_confidence(rows, names):
+    lines = ['| scene | ' + ' | '.join(f'p = {p}' for p in ALL) + ' |', '|---|' + '---|' * len(ALL)]
+    for name in names:
+        found = [next(r[11] for r in rows if r[:3] == (name, p, 'best')) for p in ALL]
+        lines.append(f'| {name} | ' + ' | '.join(f'{value:+.2f}' for value in found) + ' |')
+    return lines
+
+
 def table_trade(rows, names):
     lines = ['| scene, p | ' + ' | '.join(method_names(METHODS)) + ' |', '|---|' + '---|' * len(METHODS)]
     for name in names:
@@ -251,30 +276,32 @@ def table_trade(rows, names):
 
 
 def table_speed(rows, names):
-    head = [f'rays {n} over {peer}' for peer in ('brute', 'normals') for n in (0,) + RAYS]
+    columns = [(peer, *ours) for peer in ('brute', 'OIDN', 'normals')
+               for ours in (('best', 0), ('rays', 4), ('rays', 16))]
+    head = [f'{method} {n} over {peer}' if n else f'{method} over {peer}' for peer, method, n in columns]
     lines = ['| scene, p | ' + ' | '.join(head) + ' |', '|---|' + '---|' * len(head)]
-    found = [[] for _ in head]
+    found = []
     for name in names:
         for p in TRADE:
-            ours = curve(rows, name, p, 'best') + curve(rows, name, p, 'rays')
-            ratios = [needed_seconds(curve(rows, name, p, peer), error) / seconds
-                     for peer in ('brute', 'normals') for seconds, error in ours]
-            for column, value in zip(found, ratios):
-                column.append(value)
-            lines.append(f'| {name} {p} | ' + ' | '.join(map(times, ratios)) + ' |')
-    medians = [np.median(column) for column in found]
-    lines.append('| median | ' + ' | '.join(map(times, medians)) + ' |')
+            ours = {r[2:4]: r[4:6] for r in rows if r[:2] == (name, p)}
+            found.append([needed_seconds(curve(rows, name, p, peer), ours[method, n][1]) / ours[method, n][0]
+                          for peer, method, n in columns])
+            lines.append(f'| {name} {p} | ' + ' | '.join(map(times, found[-1])) + ' |')
+    lines.append('| median | ' + ' | '.join(map(times, np.median(found, 0))) + ' |')
     return lines
 
 
 def times(value):
-    return 'never' if np.isinf(value) else 'over 1000x' if value > 1000 else f'{value:.2g}x'
+    if np.isinf(value):
+        return 'never'
+    return 'over 1000x' if value > 1000 else f'{value:.0f}x' if value > 10 else f'{value:.1f}x'
 
 
 def draw(rows, names):
     import matplotlib
     matplotlib.use('Agg')
     import matplotlib.pyplot as plt
+    import matplotlib.ticker as ticker
     styles = {'paper': 's', 'best': 'o', 'rays': 'o-', 'brute': 'x--', 'OIDN': '^:', 'normals': '+--'}
     lines = (len(names) + 3) // 4
     figure, axes = plt.subplots(lines, 4, figsize=(13.2, 3.0 * lines + 0.4), squeeze=False)
@@ -291,6 +318,10 @@ def draw(rows, names):
         axis.set_title(name, fontsize=10)
         axis.grid(True, which='both', linewidth=0.3)
         axis.tick_params(labelsize=7, which='both')
+        for side in axis.xaxis, axis.yaxis:
+            side.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+            side.set_major_formatter(ticker.FormatStrFormatter('%g'))
+            side.set_minor_formatter(ticker.NullFormatter())
     for axis in axes[-1]:
         axis.set_xlabel('CPU seconds, POV-Ray included', fontsize=8)
     for row in axes:
@@ -315,7 +346,7 @@ def main():
         writer.writerows(rows)
     draw(rows, names)
     tables = {'filters': table_filters, 'settings': table_settings, 'trade': table_trade, 'speed': table_speed,
-              'flip': table_flip}
+              'flip': table_flip, 'confidence': table_confidence}
     text = open('docs/accuracy.md').read()
     for name, table in tables.items():
         head, rest = text.split(f'<!-- {name} -->\n')
