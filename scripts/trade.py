@@ -224,7 +224,7 @@ def table_filters(rows, names):
     return lines
 
 
-METHODS = [('best', 0)] + [('rays', n) for n in RAYS] + [('brute', n) for n in BRUTE] + \
+METHODS = [('paper', 0), ('best', 0)] + [('rays', n) for n in RAYS] + [('brute', n) for n in BRUTE] + \
           [('OIDN', n) for n in BRUTE if n <= 16] + [('normals', n) for n in NORMALS]
 
 
@@ -249,7 +249,7 @@ def table_settings(rows, names):
 
 
 def table_flip(rows, names):
-    methods = [('sharp', 0), ('paper', 0)] + METHODS
+    methods = [('sharp', 0)] + METHODS
     lines = ['| scene | ' + ' | '.join(method_names(methods)) + ' |', '|---|' + '---|' * len(methods)]
     flip = {r[:4]: r[10] for r in rows if r[1] == TRADE[0]}
     found = np.array([[flip[name, TRADE[0], m, n] for m, n in methods] for name in names])
@@ -268,10 +268,12 @@ def table_confidence(rows, names):
 
 def table_trade(rows, names):
     lines = ['| scene, p | ' + ' | '.join(method_names(METHODS)) + ' |', '|---|' + '---|' * len(METHODS)]
-    for name in names:
-        for p in TRADE:
-            cells = [next(f'{r[5]:.4f} {r[4]:.1f} s' for r in rows if r[:4] == (name, p, m, n)) for m, n in METHODS]
-            lines.append(f'| {name} {p} | ' + ' | '.join(cells) + ' |')
+    found = {(name, p): [next(r[5:3:-1] for r in rows if r[:4] == (name, p, m, n)) for m, n in METHODS]
+             for name in names for p in TRADE}
+    for p in TRADE:
+        found['median', p] = np.median([found[name, p] for name in names], 0)
+    for (name, p), cells in found.items():
+        lines.append(f'| {name} {p} | ' + ' | '.join(f'{rmse:.4f} {seconds:.1f} s' for rmse, seconds in cells) + ' |')
     return lines
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # docs/trade.csv, docs/trade.png and the tables of docs/accuracy.md: see scripts/trade.py, whose libraries come from PyPI
-# into build/trade-python. Two hours on two cores.
+# into build/trade-python. An hour and a half on two cores.
 set -eu
 python=build/trade-python
 [ -e $python/done ] || {
