@@ -58,7 +58,7 @@ struct pass {
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
     bool margin;    /* rendered with the margin, by the camera of PASS_MARGIN_CAMERA */
     bool smooth;    /* antialiased, whatever the user asks */
-    bool glossy_part; /* of use where something glossy is, as pass_of_glossy knows; else the whole picture is rendered */
+    bool glossy_part; /* of use where something glossy is, as pass_of_glossy knows; else for the whole picture */
     bool technical; /* colours are numbers: linear, without media or radiosity */
     enum position_digits digits;
     const char *mirror_colour; /* reflectivity of its glossy finishes */
@@ -85,7 +85,7 @@ bool pass_needed(const struct scene *scene, enum pass_id id);
 /* Whether there are several exponents, a texture may mix a glossy surface with another one, or a total reflection, in
  * something transparent, may be taken for one. */
 bool pass_exponents_differ(const struct scene *scene);
-/* The pass whose image is black where nothing is glossy: of the exponents, or where they don't differ of the endpoints. */
+/* The pass whose image is black where nothing is glossy: the exponents', or the endpoints' where those don't differ. */
 enum pass_id pass_of_glossy(const struct scene *scene);
 
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are

@@ -433,7 +433,8 @@ static void note_clear_parameter(struct scene *scene, const struct scene_name *m
     for (int i = 0; i < scene->file_count; i++) {
         const struct scene_file *file = &scene->files[i];
         for (int token = 1; token < file->list.count; token++) {
-            if (name_at(file, token) != macro || !is_directive(file, token - 1, "macro") || !has_parentheses(file, token))
+            if (name_at(file, token) != macro || !is_directive(file, token - 1, "macro") ||
+                !has_parentheses(file, token))
                 continue;
             int last = file->list.tokens[token + 1].match, parameter = token + 2;
             for (int skip = position; skip > 0 && parameter < last; skip--)
