@@ -2,16 +2,18 @@
 """Error against time: the filters, --rays N, and what there is in their place, by the truth of `povgloss probe`.
 
 usage: scripts/trade.py [SCENE.pov[:OPTION,...] ...]     (default: povscenes/*.pov and two of POV-Ray's examples)
-Needs numpy, OpenEXR, pyoidn and matplotlib; scripts/trade.sh calls it with them. Writes docs/trade.csv, trade.png and the
-tables of docs/accuracy.md. BIN: folder of the programs; OUT: scratch folder, kept, and not measured again.
+Needs numpy, OpenEXR, pyoidn, matplotlib and flip-evaluator; scripts/trade.sh calls it with them. Writes
+docs/trade.csv, trade.png and the tables of docs/accuracy.md. BIN: folder of the programs; OUT: scratch folder, kept:
+what is there is not measured again (of each scene ours.csv: what has the filter in it; peers.csv: what hasn't;
+probes.csv and whole.exr: the truth).
 
 Time is CPU seconds of all processes, POV-Ray's included: another program on the machine doesn't count. Peers:
   brute       povgloss brute: N rays of the lobe at each glossy pixel
   OIDN        brute, denoised by Intel Open Image Denoise (HDR, colour alone)
-  normals     what POV-Ray's users do: normals of tiny bumps, N at each pixel; the lobe's width is fitted at normal incidence
+  normals     what POV-Ray's users do: normals of tiny bumps, N at each pixel, as wide as the lobe at normal incidence
 """
 import csv, glob, os, resource, shutil, subprocess, sys
-import numpy as np, OpenEXR, pyoidn
+import flip_evaluator, numpy as np, OpenEXR, pyoidn
 
 BIN = os.path.abspath(os.environ.get('BIN', 'build/bin'))
 OUT = os.path.abspath(os.environ.get('OUT', 'build/trade'))
@@ -19,6 +21,10 @@ WIDTH, HEIGHT = 240, 180
 SIZE = [f'+W{WIDTH}', f'+H{HEIGHT}']
 ALL, TRADE = (30, 100, 300, 1000, 10000), (100, 1000)
 RAYS, BRUTE, NORMALS = (1, 4, 16), (4, 16, 64), (4, 16, 64)
+SETTINGS = ('--margin 10%', '--subsample 2', '--subsample 4', '--max-radius 64', '--max-radius 32', '--max-radius 16',
+            '--energy 0.99', '--mode paper --weights table', '--mode paper --weights gauss', '--mode paper --window square',
+            '--mode paper --radius-step 4')
+WHOLE = 256  # rays of the lobe at every pixel of the image that FLIP compares with, at p = TRADE[0]
 EXAMPLES = '/usr/share/doc/povray/examples/advanced/'
 BUMPS = 3.3  # bump_size^2 * p: at normal incidence the bumps' lobe then has the mean cosine of cos^p
 
@@ -32,12 +38,19 @@ def timed(*command, cwd=None):
     return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
 
 
-def read(path, group):
+def read(path, group, channels='RGB'):
     with OpenEXR.File(path, separate_channels=True) as file:
-        return np.stack([file.channels()[group + c].pixels.astype(np.float32) for c in 'RGB'], -1)
+        return np.stack([file.channels()[group + c].pixels.astype(np.float32) for c in channels], -1)
 
 
-ERRORS = ('rmse', 'p95', 'largest', 'relative_mse', 'bias')  # relative: over value^2 + 0.01; bias: the signed mean
+def srgb(linear):
+    x = np.clip(linear, 0, 1)
+    return np.where(x < 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055).astype(np.float32)
+
+
+# relative: over value^2 + 0.01; bias: signed mean; flip: mean over the glossy pixels of base + reflectance x image, as
+# sRGB; confidence: its rank correlation with the error. The last two are empty where there is none.
+ERRORS = ('rmse', 'p95', 'largest', 'relative_mse', 'bias', 'flip', 'confidence')
 
 
 def errors(image, probes):
@@ -46,45 +59,88 @@ def errors(image, probes):
             (difference ** 2 / (probes['value'] ** 2 + 0.01)).mean(), difference.mean())
 
 
+def rank_correlation(a, b):
+    """Spearman's, equal values by their mean rank; 0 where all are equal."""
+    ranks = []
+    for values in a, b:
+        _, at, count = np.unique(values, return_inverse=True, return_counts=True)
+        ranks.append((np.cumsum(count) - count / 2)[at])
+    return np.corrcoef(*ranks)[0, 1] if all(np.ptp(r) > 0 for r in ranks) else 0.0
+
+
 class Scene:
     def __init__(self, text):
         path, _, options = text.partition(':')
         self.path, self.options = path, options.split(',') if options else []
         self.name = os.path.basename(path)[:-4]
         self.folder = f'{OUT}/{self.name}'
-        self.rows = []
+        self.passes_file = f'{self.folder}/passes.exr'
 
     def povgloss(self, command, *options):
         return timed(f'{BIN}/povgloss', command, self.path, *SIZE, *self.options, '--quiet', *options)
 
-    def note(self, p, method, n, seconds, image):
+    def flip(self, image):
+        base, reflectance = read(self.passes_file, ''), read(self.passes_file, 'reflectance.')
+        truth, seen = (srgb(base + reflectance * x) for x in (read(f'{self.folder}/whole.exr', 'glossy.'), image))
+        wrong = flip_evaluator.evaluate(truth, seen, 'LDR', applyMagma=False, computeMeanError=False)[0]
+        return wrong[reflectance.max(-1) > 0].mean()
+
+    def note(self, p, method, n, seconds, image, confidence=''):
         found = [round(float(error), 5) for error in errors(image, self.probes[p])]
-        self.rows.append((self.name, p, method, n, round(seconds, 3), *found))
+        flip = round(float(self.flip(image)), 5) if p == TRADE[0] else ''
+        self.rows.append((self.name, p, method, n, round(seconds, 3), *found, flip, confidence))
         print(*self.rows[-1], flush=True)
 
-    def prepare(self):
-        os.makedirs(self.folder)
-        self.passes = self.povgloss('passes', '--keep', f'{self.folder}/keep', '--no-check', '-o', f'{self.folder}/passes.exr')
-        self.povgloss('probe', '--grid', '20', *[f'--phong={p}' for p in ALL], '-o', f'{self.folder}/probes.csv')
-        rows = list(csv.DictReader(open(f'{self.folder}/probes.csv')))
+    def read_truth(self):
+        os.makedirs(self.folder, exist_ok=True)
+        probes, whole = f'{self.folder}/probes.csv', f'{self.folder}/whole.exr'
+        if not os.path.exists(probes):
+            self.povgloss('probe', '--grid', '40', '--error', '0.004', *[f'--phong={p}' for p in ALL], '-o', probes)
+        if not os.path.exists(whole):
+            self.povgloss('brute', '--phong', str(TRADE[0]), '--samples', str(WHOLE), '--seed', '7', '--layers',
+                          '-o', whole)
+        rows = list(csv.DictReader(open(probes)))
         self.probes = {}
         for p in ALL:
             chosen = [row for row in rows if float(row['phong']) == p]
             self.probes[p] = {'x': [int(r['x']) for r in chosen], 'y': [int(r['y']) for r in chosen],
                               'value': np.array([[float(r[c]) for c in 'RGB'] for r in chosen])}
 
+    def filter(self, p, method, seconds, passes, *options):
+        image = f'{self.folder}/filtered.exr'
+        phong = [] if 'inf' in options else ['--phong', str(p)]
+        seconds += timed(f'{BIN}/glossfilter', passes, *phong, *options, '--quiet', '--layers', '-o', image)
+        self.note(p, method, 0, seconds, read(image, 'glossy.'), self.confidence(image, p) if method == 'best' else '')
+
+    def confidence(self, image, p):
+        at = self.probes[p]['y'], self.probes[p]['x']
+        error = ((read(image, 'glossy.')[at] - self.probes[p]['value']) ** 2).mean(-1)
+        return round(float(rank_correlation(read(image, 'confidence.', 'V')[at][:, 0], error)), 3)
+
     def filters(self, p):
-        for method, options in ('sharp', ['--phong', 'inf']), ('paper', ['--mode', 'paper']), ('best', []):
-            options = options if 'inf' in options else ['--phong', str(p), *options]
-            seconds = timed(f'{BIN}/glossfilter', f'{self.folder}/passes.exr', *options, '--quiet', '--layers',
-                            '-o', f'{self.folder}/filtered.exr')
-            self.note(p, method, 0, self.passes + seconds, read(f'{self.folder}/filtered.exr', 'glossy.'))
+        self.filter(p, 'sharp', self.passes, self.passes_file, '--phong', 'inf')
+        self.filter(p, 'paper', self.passes, self.passes_file, '--mode', 'paper')
+        self.filter(p, 'best', self.passes, self.passes_file)
+
+    def settings(self):
+        for setting in SETTINGS:
+            passes, seconds, options = self.passes_file, self.passes, setting.split()
+            if options[0] in ('--margin', '--subsample'):
+                passes = f'{self.folder}/{options[0][2:]}.exr'
+                seconds = self.povgloss('passes', '--no-check', *options, '-o', passes)
+                options = []
+            for p in TRADE:
+                self.filter(p, setting, seconds, passes, *options)
 
     def rays(self, p):
         image = f'{self.folder}/rays.exr'
         for n in RAYS:
-            seconds = self.povgloss('render', '--no-check', '--phong', str(p), '--rays', str(n), '--layers', '-o', image)
+            seconds = self.povgloss('render', '--no-check', '--phong', str(p), '--rays', str(n), '--layers',
+                                    '-o', image)
             self.note(p, 'rays', n, seconds, read(image, 'glossy.'))
+
+    def brute(self, p):
+        image = f'{self.folder}/rays.exr'
         for n in BRUTE:
             seconds = self.povgloss('brute', '--phong', str(p), '--samples', str(n), '--layers', '-o', image)
             noisy = read(image, 'glossy.')
@@ -96,7 +152,7 @@ class Scene:
                 self.note(p, 'OIDN', n, seconds + after.ru_utime - before.ru_utime, clean)
 
     def normals(self, p):
-        """The specular pass in a larger picture, every pixel of which meets another bump, and the mean of each square."""
+        """The specular pass, larger: every pixel meets another bump, and the mean of each square is taken."""
         folder = f'{self.folder}/keep/specular'
         lines = open(f'{folder}/pass.inc').read().split('\n')
         at = max(i for i, line in enumerate(lines) if line.startswith('#default { pigment { povgloss_pigment }'))
@@ -105,25 +161,37 @@ class Scene:
         libraries = [f'+L../{name}' for name in sorted(os.listdir(f'{self.folder}/keep')) if name.startswith('lib')]
         for n in NORMALS:
             side = round(n ** 0.5)
-            seconds = timed('povray', '+Inormals.pov', '+L../copies', *libraries, '-A', '-D', '-GA', '+FE', '+Onormals.exr',
-                            f'+W{WIDTH * side}', f'+H{HEIGHT * side}', cwd=folder)
+            seconds = timed('povray', '+Inormals.pov', '+L../copies', *libraries, '-A', '-D', '-GA', '+FE',
+                            '+Onormals.exr', f'+W{WIDTH * side}', f'+H{HEIGHT * side}', cwd=folder)
             image = np.minimum(read(f'{folder}/normals.exr', ''), 65504)
             image = image.reshape(HEIGHT, side, WIDTH, side, 3).mean((1, 3))
             self.note(p, 'normals', n, self.passes + seconds, image)
 
-    def measure(self):
-        if os.path.exists(f'{self.folder}/rows.csv'):
-            self.rows = [(r[0], int(r[1]), r[2], int(r[3]), *map(float, r[4:]))
-                         for r in csv.reader(open(f'{self.folder}/rows.csv'))]
-            return
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.prepare()
+    def ours(self):
         for p in ALL:
             self.filters(p)
+        self.settings()
         for p in TRADE:
             self.rays(p)
+
+    def peers(self):
+        for p in TRADE:
+            self.brute(p)
             self.normals(p)
-        csv.writer(open(f'{self.folder}/rows.csv', 'w')).writerows(self.rows)
+
+    def measure(self):
+        parts = {f'{self.folder}/{part.__name__}.csv': part for part in (self.ours, self.peers)}
+        if not all(map(os.path.exists, parts)):
+            self.read_truth()
+            shutil.rmtree(f'{self.folder}/keep', ignore_errors=True)
+            self.passes = self.povgloss('passes', '--keep', f'{self.folder}/keep', '--no-check', '-o', self.passes_file)
+        for path, part in parts.items():
+            if not os.path.exists(path):
+                self.rows = []
+                part()
+                csv.writer(open(path, 'w')).writerows(self.rows)
+        return [(r[0], int(r[1]), r[2], int(r[3]), *(float(value) if value else '' for value in r[4:]))
+                for path in parts for r in csv.reader(open(path))]
 
 
 def needed_seconds(curve, error):
@@ -156,46 +224,89 @@ def table_filters(rows, names):
     return lines
 
 
-def table_trade(rows, names):
-    methods = [('best', 0)] + [('rays', n) for n in RAYS] + [('brute', n) for n in BRUTE] + \
-              [('OIDN', n) for n in BRUTE if n <= 16] + [('normals', n) for n in NORMALS]
-    lines = ['| scene, p | ' + ' | '.join(f'{m} {n}' if n else m for m, n in methods) + ' |',
-             '|---|' + '---|' * len(methods)]
-    for name in names:
+METHODS = [('paper', 0), ('best', 0)] + [('rays', n) for n in RAYS] + [('brute', n) for n in BRUTE] + \
+          [('OIDN', n) for n in BRUTE if n <= 16] + [('normals', n) for n in NORMALS]
+
+
+def method_names(methods):
+    return [f'{m} {n}' if n else m for m, n in methods]
+
+
+def table_settings(rows, names):
+    """Medians over the scenes of RMSE and CPU seconds in shares of best's."""
+    lines = ['| setting | ' + ' | '.join(f'RMSE, p = {p} | worst scene | seconds' for p in TRADE) + ' |',
+             '|---|' + '---|' * (3 * len(TRADE))]
+    for setting in *SETTINGS, 'paper':
+        cells = []
         for p in TRADE:
-            cells = [next(f'{r[5]:.4f} {r[4]:.1f} s' for r in rows if r[:4] == (name, p, m, n)) for m, n in methods]
-            lines.append(f'| {name} {p} | ' + ' | '.join(cells) + ' |')
+            ours = np.array([curve(rows, name, p, setting)[0] for name in names])
+            ratios = ours / [curve(rows, name, p, 'best')[0] for name in names]
+            worst = ratios[:, 1].argmax()
+            cells += [f'{np.median(ratios[:, 1]):.2f}', f'{ratios[worst, 1]:.2f} {names[worst]}',
+                      f'{np.median(ratios[:, 0]):.2f}']
+        lines.append(f'| `{setting}` | ' + ' | '.join(cells) + ' |')
+    return lines
+
+
+def table_flip(rows, names):
+    methods = [('sharp', 0)] + METHODS
+    lines = ['| scene | ' + ' | '.join(method_names(methods)) + ' |', '|---|' + '---|' * len(methods)]
+    flip = {r[:4]: r[10] for r in rows if r[1] == TRADE[0]}
+    found = np.array([[flip[name, TRADE[0], m, n] for m, n in methods] for name in names])
+    for name, line in zip(names + ['median'], [*found, np.median(found, 0)]):
+        lines.append(f'| {name} | ' + ' | '.join(f'{value:.3f}' for value in line) + ' |')
+    return lines
+
+
+def table_confidence(rows, names):
+    lines = ['| scene | ' + ' | '.join(f'p = {p}' for p in ALL) + ' |', '|---|' + '---|' * len(ALL)]
+    for name in names:
+        found = [next(r[11] for r in rows if r[:3] == (name, p, 'best')) for p in ALL]
+        lines.append(f'| {name} | ' + ' | '.join(f'{value:+.2f}' for value in found) + ' |')
+    return lines
+
+
+def table_trade(rows, names):
+    lines = ['| scene, p | ' + ' | '.join(method_names(METHODS)) + ' |', '|---|' + '---|' * len(METHODS)]
+    found = {(name, p): [next(r[5:3:-1] for r in rows if r[:4] == (name, p, m, n)) for m, n in METHODS]
+             for name in names for p in TRADE}
+    for p in TRADE:
+        found['median', p] = np.median([found[name, p] for name in names], 0)
+    for (name, p), cells in found.items():
+        lines.append(f'| {name} {p} | ' + ' | '.join(f'{rmse:.4f} {seconds:.1f} s' for rmse, seconds in cells) + ' |')
     return lines
 
 
 def table_speed(rows, names):
-    lines = ['| scene, p | ' + ' | '.join(f'rays {n} over {peer}' for peer in ('brute', 'normals') for n in (0,) + RAYS) + ' |',
-             '|---|' + '---|' * (2 * (1 + len(RAYS)))]
-    found = [[] for _ in range(2 * (1 + len(RAYS)))]
+    columns = [(peer, *ours) for peer in ('brute', 'OIDN', 'normals')
+               for ours in (('best', 0), ('rays', 4), ('rays', 16))]
+    head = [f'{method} {n} over {peer}' if n else f'{method} over {peer}' for peer, method, n in columns]
+    lines = ['| scene, p | ' + ' | '.join(head) + ' |', '|---|' + '---|' * len(head)]
+    found = []
     for name in names:
         for p in TRADE:
-            ours = curve(rows, name, p, 'best') + curve(rows, name, p, 'rays')
-            ratios = [needed_seconds(curve(rows, name, p, peer), error) / seconds
-                     for peer in ('brute', 'normals') for seconds, error in ours]
-            for column, value in zip(found, ratios):
-                column.append(value)
-            lines.append(f'| {name} {p} | ' + ' | '.join(map(times, ratios)) + ' |')
-    medians = [np.median(column) for column in found]
-    lines.append('| median | ' + ' | '.join(map(times, medians)) + ' |')
+            ours = {r[2:4]: r[4:6] for r in rows if r[:2] == (name, p)}
+            found.append([needed_seconds(curve(rows, name, p, peer), ours[method, n][1]) / ours[method, n][0]
+                          for peer, method, n in columns])
+            lines.append(f'| {name} {p} | ' + ' | '.join(map(times, found[-1])) + ' |')
+    lines.append('| median | ' + ' | '.join(map(times, np.median(found, 0))) + ' |')
     return lines
 
 
 def times(value):
-    return 'never' if np.isinf(value) else 'over 1000x' if value > 1000 else f'{value:.2g}x'
+    if np.isinf(value):
+        return 'never'
+    return 'over 1000x' if value > 1000 else f'{value:.0f}x' if value > 10 else f'{value:.1f}x'
 
 
 def draw(rows, names):
     import matplotlib
     matplotlib.use('Agg')
     import matplotlib.pyplot as plt
+    import matplotlib.ticker as ticker
     styles = {'paper': 's', 'best': 'o', 'rays': 'o-', 'brute': 'x--', 'OIDN': '^:', 'normals': '+--'}
-    columns = (len(names) + 1) // 2
-    figure, axes = plt.subplots(2, columns, figsize=(3.3 * columns, 6.4), squeeze=False)
+    lines = (len(names) + 3) // 4
+    figure, axes = plt.subplots(lines, 4, figsize=(13.2, 3.0 * lines + 0.4), squeeze=False)
     for axis in axes.flat[len(names):]:
         axis.axis('off')
     for axis, name in zip(axes.flat, names):
@@ -209,13 +320,17 @@ def draw(rows, names):
         axis.set_title(name, fontsize=10)
         axis.grid(True, which='both', linewidth=0.3)
         axis.tick_params(labelsize=7, which='both')
+        for side in axis.xaxis, axis.yaxis:
+            side.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+            side.set_major_formatter(ticker.FormatStrFormatter('%g'))
+            side.set_minor_formatter(ticker.NullFormatter())
     for axis in axes[-1]:
         axis.set_xlabel('CPU seconds, POV-Ray included', fontsize=8)
     for row in axes:
         row[0].set_ylabel(f'RMSE, p = {TRADE[0]}', fontsize=8)
     handles, labels = axes[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc='lower center', ncol=6, fontsize=8)
-    figure.tight_layout(rect=(0, 0.045, 1, 1))
+    figure.tight_layout(rect=(0, 0.09 / lines, 1, 1))
     figure.savefig('docs/trade.png', dpi=100)
 
 
@@ -225,19 +340,19 @@ def main():
     rows, names = [], []
     for text in texts:
         scene = Scene(text)
-        scene.measure()
-        rows += scene.rows
+        rows += scene.measure()
         names.append(scene.name)
     with open('docs/trade.csv', 'w') as file:
         writer = csv.writer(file, lineterminator='\n')
         writer.writerow(['scene', 'phong', 'method', 'samples', 'cpu_seconds', *ERRORS])
         writer.writerows(rows)
     draw(rows, names)
-    tables = {'filters': table_filters(rows, names), 'trade': table_trade(rows, names), 'speed': table_speed(rows, names)}
+    tables = {'filters': table_filters, 'settings': table_settings, 'trade': table_trade, 'speed': table_speed,
+              'flip': table_flip, 'confidence': table_confidence}
     text = open('docs/accuracy.md').read()
-    for name, lines in tables.items():
+    for name, table in tables.items():
         head, rest = text.split(f'<!-- {name} -->\n')
-        text = head + f'<!-- {name} -->\n' + '\n'.join(lines) + '\n' + rest[rest.index('\n<!-- end -->'):]
+        text = head + f'<!-- {name} -->\n' + '\n'.join(table(rows, names)) + '\n' + rest[rest.index('\n<!-- end -->'):]
     open('docs/accuracy.md', 'w').write(text)
 
 

@@ -38,15 +38,23 @@ static enum result read_codes(const struct pass_images *images, enum pass_id id,
     return result;
 }
 
+static bool any_nonzero(const struct image *image, int x, int y)
+{
+    bool any = false;
+    for (int channel = 0; channel < image->channels; channel++)
+        any |= image_row(image, channel, y)[x] != 0;
+    return any;
+}
+
 enum result pass_images_glossy(const struct pass_images *images, struct image_window *window, struct error *err)
 {
     enum { MARGIN = 2 };
     struct image codes = {0};
-    enum result result = read_codes(images, PASS_EXPONENT, &codes, err);
+    enum result result = read_codes(images, pass_of_glossy(images->scene), &codes, err);
     int left = codes.width, top = codes.height, right = 0, bottom = 0;
     for (int y = 0; y < codes.height; y++)
         for (int x = 0; x < codes.width; x++)
-            if (image_row(&codes, 2, y)[x] > 0) {
+            if (any_nonzero(&codes, x, y)) {
                 left = x < left ? x : left;
                 right = x >= right ? x + 1 : right;
                 top = y < top ? y : top;
@@ -191,14 +199,6 @@ static enum result alloc_exponents(struct gbuffer *gbuffer, const struct image *
 {
     const struct image *like = codes->pixels ? codes : &gbuffer->position;
     return image_alloc(&gbuffer->phong, like->width, like->height, 1, err);
-}
-
-static bool any_nonzero(const struct image *image, int x, int y)
-{
-    bool any = false;
-    for (int channel = 0; channel < image->channels; channel++)
-        any |= image_row(image, channel, y)[x] != 0;
-    return any;
 }
 
 /* A total reflection in something transparent isn't of a glossy finish: it shows the exponent pass's white sky
@@ -454,7 +454,7 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     enum result result = pass_images_radiance(images, PASS_BASE, &gbuffer->base, err);
     if (result || !images->scene->glossy)
         return result ? result : make_dull(gbuffer, err);
-    if (pass_exponents_differ(images->scene))
+    if (pass_needed(images->scene, PASS_EXPONENT))
         result = read_codes(images, PASS_EXPONENT, &codes, err);
     if (!result && pass_needed(images->scene, PASS_EXPONENT_MEAN))
         result = read_codes(images, PASS_EXPONENT_MEAN, &means, err);

@@ -27,7 +27,7 @@ MUST_CHECK enum result pass_image_path(const struct pass_images *images, enum pa
 MUST_CHECK enum result pass_images_radiance(const struct pass_images *images, enum pass_id id, struct image *image,
                                             struct error *err);
 
-/* The smallest window with all pixels at which the exponent pass saw something glossy, and 2 more on each side (the
+/* The smallest window with all pixels at which pass_of_glossy saw something, and 2 more on each side (the
  * others' silhouettes are antialiased); a corner of the picture where it saw nothing. */
 MUST_CHECK enum result pass_images_glossy(const struct pass_images *images, struct image_window *window,
                                           struct error *err);

@@ -35,10 +35,11 @@ static const char mirror_exponent[] =
     "#local povgloss_v = 65535*povgloss_exponent_code(povgloss_phong);\n"
     "  rgb (povgloss_phong < povgloss_maps_from)*<floor(povgloss_v)/65535, povgloss_v - floor(povgloss_v), 1>";
 
-/* For mirrored rays only. */
-#define SKY(colour) \
-    "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n" \
-    "sky_sphere { pigment { rgb " colour " } }\n"
+/* The sky of the camera's own rays, over that of mirrored ones. */
+#define BLACK_SKY \
+    "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n"
+#define SKY(colour) BLACK_SKY "sky_sphere { pigment { rgb " colour " } }\n"
+static const char black_sky[] = BLACK_SKY;
 static const char sky_half[] = SKY("pow(0.5, 20)");
 static const char sky_white[] = SKY("1");
 #define MIRRORS "no_reflection no_shadow no_radiosity"
@@ -50,6 +51,25 @@ static const char outside[] = "povgloss_leave_copy() object { povgloss_object } 
 #define DIGITS_(number) #number
 #define DIGITS(number) DIGITS_(number)
 #define MOSTLY_CLEAR 0.5
+
+/* What several passes have in common. */
+#define CODES .codes = true, .technical = true
+#define POSITIONS \
+    CODES, .clear_from = CLEAR, .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true}, .second = {.copy = -1}
+#define ENDPOINTS \
+    CODES, .margin = true, .glossy_part = true, .clear_from = MOSTLY_CLEAR, .mirror_colour = mirror_white, \
+        .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS, .coded = true}, \
+        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}, .coded_sky = true
+#define DIRECTIONS \
+    CODES, .digits = POSITION_DIGITS_ALL, .clear_from = CLEAR, \
+        .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS}, .second = {.copy = -1}, .coded_sky = true
+#define MIRROR_COPY \
+    .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror}, .second = {.copy = -1}
+#define EXPONENTS CODES, .margin = true, .mirror_colour = mirror_exponent, MIRROR_COPY, .trailer = sky_white
+#define MIRRORED CODES, .glossy_part = true, .mirror_colour = mirror_white, MIRROR_COPY, .coded_sky = true
+#define REFLECTIVITIES \
+    .glossy_part = true, .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance}, \
+    .second = {.copy = -1}, .trailer = sky_half
 
 const struct pass pass_table[PASS_COUNT] = {
     [PASS_PHOTONS] = {.name = "photons",
@@ -73,128 +93,25 @@ const struct pass pass_table[PASS_COUNT] = {
                    .mirror_colour = mirror_white,
                    .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                    .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_haze}},
-    [PASS_REFLECTANCE] = {.name = "reflectance",
-                          .glossy_part = true,
-                          .full_size = true,
-                          .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
-                          .second = {.copy = -1},
-                          .trailer = sky_half},
-    [PASS_REFLECTIVITY] = {.name = "reflectivity",
-                           .margin = true,
-                           .glossy_part = true,
-                           .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance},
-                           .second = {.copy = -1},
-                           .trailer = sky_half},
-    [PASS_POSITION] = {.name = "position",
-                       .margin = true,
-                       .glossy_part = true,
-                       .codes = true,
-                       .technical = true,
-                       .digits = POSITION_DIGITS_HIGH,
-                       .clear_from = CLEAR,
-                       .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
-                       .second = {.copy = -1}},
-    [PASS_POSITION_LOW] = {.name = "position-low",
-                           .margin = true,
-                           .glossy_part = true,
-                           .codes = true,
-                           .technical = true,
-                           .digits = POSITION_DIGITS_LOW,
-                           .clear_from = CLEAR,
-                           .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
-                           .second = {.copy = -1}},
-    [PASS_ENDPOINT] = {.name = "endpoint",
-                       .margin = true,
-                       .glossy_part = true,
-                       .codes = true,
-                       .technical = true,
-                       .digits = POSITION_DIGITS_HIGH,
-                       .clear_from = MOSTLY_CLEAR,
-                       .mirror_colour = mirror_white,
-                       .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS, .coded = true},
-                       .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
-                       .coded_sky = true},
-    [PASS_ENDPOINT_LOW] = {.name = "endpoint-low",
-                           .margin = true,
-                           .glossy_part = true,
-                           .codes = true,
-                           .technical = true,
-                           .digits = POSITION_DIGITS_LOW,
-                           .clear_from = MOSTLY_CLEAR,
-                           .mirror_colour = mirror_white,
-                           .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS, .coded = true},
-                           .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
-                           .coded_sky = true},
-    [PASS_VIEW] = {.name = "view",
-                   .codes = true,
-                   .technical = true,
-                   .digits = POSITION_DIGITS_HIGH,
-                   .clear_from = CLEAR,
-                   .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS},
-                   .second = {.copy = -1},
-                   .coded_sky = true},
-    [PASS_DIRECTION] = {.name = "direction",
-                        .codes = true,
-                        .technical = true,
-                        .digits = POSITION_DIGITS_HIGH,
-                        .clear_from = CLEAR,
-                        .first = {.copy = SCENE_COPY_CODED, .modifiers = SEEN_IN_MIRRORS},
-                        .second = {.copy = -1},
-                        .coded_sky = true},
-    [PASS_PLACE] = {.name = "place",
-                    .codes = true,
-                    .technical = true,
-                    .digits = POSITION_DIGITS_HIGH,
-                    .clear_from = CLEAR,
-                    .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
-                    .second = {.copy = -1}},
-    [PASS_PLACE_LOW] = {.name = "place-low",
-                        .codes = true,
-                        .technical = true,
-                        .digits = POSITION_DIGITS_LOW,
-                        .clear_from = CLEAR,
-                        .first = {.copy = SCENE_COPY_CODED, .modifiers = "", .coded = true},
-                        .second = {.copy = -1}},
-    [PASS_EXPONENT] = {.name = "exponent",
-                       .margin = true,
-                       .codes = true,
-                       .technical = true,
-                       .mirror_colour = mirror_exponent,
-                       .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
-                       .second = {.copy = -1},
-                       .trailer = sky_white},
-    [PASS_EXPONENT_MEAN] = {.name = "exponent-mean",
-                            .margin = true,
-                            .glossy_part = true,
-                            .codes = true,
-                            .smooth = true,
-                            .technical = true,
-                            .mirror_colour = mirror_exponent,
-                            .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
-                            .second = {.copy = -1},
-                            .trailer = sky_white},
+    [PASS_REFLECTANCE] = {.name = "reflectance", .full_size = true, REFLECTIVITIES},
+    [PASS_REFLECTIVITY] = {.name = "reflectivity", .margin = true, REFLECTIVITIES},
+    [PASS_POSITION] = {.name = "position", .margin = true, .glossy_part = true, .digits = POSITION_DIGITS_HIGH, POSITIONS},
+    [PASS_POSITION_LOW] = {.name = "position-low", .margin = true, .glossy_part = true, .digits = POSITION_DIGITS_LOW,
+                           POSITIONS},
+    [PASS_ENDPOINT] = {.name = "endpoint", .digits = POSITION_DIGITS_HIGH, ENDPOINTS, .trailer = black_sky},
+    [PASS_ENDPOINT_LOW] = {.name = "endpoint-low", .digits = POSITION_DIGITS_LOW, ENDPOINTS},
+    [PASS_VIEW] = {.name = "view", DIRECTIONS},
+    [PASS_DIRECTION] = {.name = "direction", DIRECTIONS},
+    [PASS_PLACE] = {.name = "place", .digits = POSITION_DIGITS_HIGH, POSITIONS},
+    [PASS_PLACE_LOW] = {.name = "place-low", .digits = POSITION_DIGITS_LOW, POSITIONS},
+    [PASS_EXPONENT] = {.name = "exponent", EXPONENTS},
+    [PASS_EXPONENT_MEAN] = {.name = "exponent-mean", .glossy_part = true, .smooth = true, EXPONENTS},
     [PASS_OWN] = {.name = "own",
                   .full_size = true,
                   .first = {.copy = SCENE_COPY_PLAIN, .modifiers = ""},
                   .second = {.copy = -1}},
-    [PASS_MIRROR] = {.name = "mirror",
-                     .glossy_part = true,
-                     .codes = true,
-                     .technical = true,
-                     .digits = POSITION_DIGITS_HIGH,
-                     .mirror_colour = mirror_white,
-                     .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
-                     .second = {.copy = -1},
-                     .coded_sky = true},
-    [PASS_MIRROR_LOW] = {.name = "mirror-low",
-                         .glossy_part = true,
-                         .codes = true,
-                         .technical = true,
-                         .digits = POSITION_DIGITS_LOW,
-                         .mirror_colour = mirror_white,
-                         .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror},
-                         .second = {.copy = -1},
-                         .coded_sky = true},
+    [PASS_MIRROR] = {.name = "mirror", .digits = POSITION_DIGITS_HIGH, MIRRORED},
+    [PASS_MIRROR_LOW] = {.name = "mirror-low", .digits = POSITION_DIGITS_LOW, MIRRORED},
     [PASS_PROBE] = {.name = "probe",
                     .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
                     .second = {.copy = -1},
@@ -606,10 +523,15 @@ struct pass pass_of(const struct scene *scene, enum pass_id id)
         pass.second.copy = SCENE_COPY_REFLECTION;
         pass.second.finish_end = id == PASS_HAZE ? end_haze_of_reflection : end_reflection;
     }
-    /* An aperture sees glossy surfaces beyond the silhouettes of the exponent pass, which has none. */
-    if (scene->focal_blur && !pass.codes)
+    /* An aperture sees glossy surfaces beyond the silhouettes of codes, which have none. */
+    if (id == pass_of_glossy(scene) || (scene->focal_blur && !pass.codes))
         pass.glossy_part = false;
     return pass;
+}
+
+enum pass_id pass_of_glossy(const struct scene *scene)
+{
+    return pass_exponents_differ(scene) ? PASS_EXPONENT : PASS_ENDPOINT;
 }
 
 enum result pass_discovery_text(const struct scene *scene, struct buffer *text, struct error *err)
@@ -698,6 +620,8 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
         return false;
     if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;
+    if (id == PASS_EXPONENT && !pass_exponents_differ(scene))
+        return false;
     /* The camera may be in an object with media: those of the copy that only mirrored rays see are before its eye,
      * too. */
     if (id == PASS_HAZE && !scene->atmosphere && !scene->limits[SCENE_LIMIT_MEDIA].line && !pass_weights_specular(scene))
@@ -709,7 +633,7 @@ bool pass_needed(const struct scene *scene, enum pass_id id)
 
 bool pass_exponents_differ(const struct scene *scene)
 {
-    return scene->exponent < 0 || scene->mixes || scene->refracts;
+    return scene->exponent < 0 || scene->mixes || (scene->refracts && scene->may_be_clear);
 }
 
 void pass_copies(const struct scene *scene, enum pass_id id, bool needed[SCENE_COPY_COUNT])

@@ -58,13 +58,13 @@ struct pass {
     bool full_size; /* rendered as the user asks, antialiasing and size; else one ray a pixel, subsampled */
     bool margin;    /* rendered with the margin, by the camera of PASS_MARGIN_CAMERA */
     bool smooth;    /* antialiased, whatever the user asks */
-    bool glossy_part; /* of use where something glossy is, as the exponent pass knows; else the whole picture is rendered */
+    bool glossy_part; /* of use where something glossy is, as pass_of_glossy knows; else for the whole picture */
     bool technical; /* colours are numbers: linear, without media or radiosity */
     enum position_digits digits;
     const char *mirror_colour; /* reflectivity of its glossy finishes */
     struct scene_part first, second;
     double clear_from;         /* a coded object of at least this transparency is looked through */
-    bool coded_sky;      /* mirrored rays that miss find their direction's code */
+    bool coded_sky;      /* rays that miss find their direction's code */
     const char *trailer; /* statements after the copies */
 };
 
@@ -78,13 +78,15 @@ struct pass pass_of(const struct scene *scene, enum pass_id id);
 bool pass_weights_specular(const struct scene *scene);
 
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the
- * haze where it has one, or media, or a weighted specular pass, which then has a reflectivity, too; antialiased
- * exponents where one is painted. */
+ * haze where it has one, or media, or a weighted specular pass, which then has a reflectivity, too; exponents where they
+ * differ, antialiased where one is painted. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
-/* Whether the exponent pass says more than where something is glossy: there are several exponents, a texture may mix a
- * glossy surface with another one, or a total reflection may be taken for one. */
+/* Whether there are several exponents, a texture may mix a glossy surface with another one, or a total reflection, in
+ * something transparent, may be taken for one. */
 bool pass_exponents_differ(const struct scene *scene);
+/* The pass whose image is black where nothing is glossy: the exponents', or the endpoints' where those don't differ. */
+enum pass_id pass_of_glossy(const struct scene *scene);
 
 /* Whether the pass's scene is the user's own text, which no copy has: POV-Ray's own picture, but for photons, which are
  * loaded as in the other passes. */

@@ -657,7 +657,7 @@ static int clamp(int value, int low, int high)
     return value < low ? low : value > high ? high : value;
 }
 
-/* Limits the pass to the glossy window, whose pixels are those of the exponent pass. It begins where a block of the
+/* Limits the pass to the glossy window, whose pixels are those of pass_of_glossy. It begins where a block of the
  * whole picture begins: POV-Ray antialiases block by block. */
 static enum result add_glossy_window(struct run *run, int index, const struct image_window *window, struct error *err)
 {
@@ -681,7 +681,7 @@ static enum result add_glossy_window(struct run *run, int index, const struct im
     return result;
 }
 
-/* Where the exponent pass saw nothing glossy others have nothing to do. */
+/* Where pass_of_glossy saw nothing others have nothing to do. */
 static enum result narrow(struct run *run, const struct pass_images *images, struct error *err)
 {
     struct image_window window;
@@ -724,7 +724,7 @@ static enum result go_on(void *context, struct error *err)
         run->camera_sought = true;
         result = add_margin(run, &images, err);
     }
-    if (!result && run->narrows && !run->narrowed && has_ended(passes, PASS_EXPONENT)) {
+    if (!result && run->narrows && !run->narrowed && has_ended(passes, pass_of_glossy(&passes->scene))) {
         const struct pass_images images = images_of(passes, number);
         run->narrowed = true;
         result = narrow(run, &images, err);

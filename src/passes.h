@@ -11,8 +11,8 @@
  *   endpoint     b: mirrors seen by the camera, coded positions seen by mirrored rays, coded directions where they miss
  *   view         some of the camera's rays, coded: all are known by them where they are those of a perspective camera
  *   direction    all of its rays where they aren't: they give the eye and the view angle whatever the camera
- *   exponent     the Phong exponent; the passes that only the reflection needs wait for it, to be rendered where
- *                something is glossy alone
+ *   exponent     the Phong exponent, where there are several; the passes that only the reflection needs wait for it, or
+ *                else for the endpoint, to be rendered where something is glossy alone
  *   place        few positions, which tell the eye's where the passes are rendered with a margin
  *   exponent-mean  the same antialiased, where an exponent is painted, so that its edges are as smooth as the picture's
  *   own          POV-Ray's own picture, small: what the parts must add up to

@@ -321,7 +321,7 @@ static const struct {
     {"slope_map", SCENE_BLOCK_PATTERN},
     {"density", SCENE_BLOCK_PATTERN},
     {"density_map", SCENE_BLOCK_PATTERN},
-    {"sky_sphere", SCENE_BLOCK_PATTERN},
+    {"sky_sphere", SCENE_BLOCK_PATTERN | SCENE_BLOCK_SKY},
     {"camera", SCENE_BLOCK_PATTERN},
     {"finish", SCENE_BLOCK_PATTERN},
     {"texture", SCENE_BLOCK_SURFACE},
@@ -409,8 +409,7 @@ static enum result count_clear(struct scene *scene, struct error *err)
         if (!file->clear)
             return error_memory(err, (double)size);
         for (int token = 0; token < file->list.count; token++)
-            file->clear[token + 1] = file->clear[token] + (names_clear(file, token) ||
-                                                            has_fact(file, token, NAME_PARAMETER));
+            file->clear[token + 1] = file->clear[token] + names_clear(file, token);
         for (int token = 0; token < file->list.count; token++)
             scene->clear_default |= (is_directive(file, token, "default") || is_word(file, token, "default")) &&
                                     opens_block(file, token) &&
@@ -419,36 +418,74 @@ static enum result count_clear(struct scene *scene, struct error *err)
     return RESULT_OK;
 }
 
-static void note_parameters(struct scene *scene, const struct scene_file *file, int name)
+/* Whether one of the tokens is transparent, as far as it is known. */
+static bool says_clear(const struct scene_file *file, int first, int end)
 {
-    int last = is_mark(file, name + 1, "(") ? file->list.tokens[name + 1].match : -1;
-    for (int token = name + 2; token < last; token++)
-        note_fact(scene, file, token, NAME_PARAMETER);
+    bool clear = false;
+    for (int token = first; token < end; token++)
+        clear |= names_clear(file, token);
+    return clear;
 }
 
-/* Notes whether the name that the directive at `token` declares may be transparent: what a parameter of a macro gives
- * to it is as unknown as the parameter. */
+/* Notes that the parameter number `position` of the macros of that name may be transparent. */
+static void note_clear_parameter(struct scene *scene, const struct scene_name *macro, int position)
+{
+    for (int i = 0; i < scene->file_count; i++) {
+        const struct scene_file *file = &scene->files[i];
+        for (int token = 1; token < file->list.count; token++) {
+            if (name_at(file, token) != macro || !is_directive(file, token - 1, "macro") ||
+                !has_parentheses(file, token))
+                continue;
+            int last = file->list.tokens[token + 1].match, parameter = token + 2;
+            for (int skip = position; skip > 0 && parameter < last; skip--)
+                parameter = argument_end(file, parameter, last) + 1;
+            if (parameter < last)
+                note_fact(scene, file, parameter, NAME_CLEAR);
+        }
+    }
+}
+
+/* The parameters of a macro; a file that isn't rewritten may give them anything. */
+static void note_parameters(struct scene *scene, const struct scene_file *file, int name)
+{
+    const bool anything = scene_includes_as_it_is(scene);
+    int last = is_mark(file, name + 1, "(") ? file->list.tokens[name + 1].match : -1;
+    for (int token = name + 2; token < last; token++) {
+        note_fact(scene, file, token, NAME_PARAMETER);
+        if (anything)
+            note_fact(scene, file, token, NAME_CLEAR);
+    }
+}
+
+/* What a call gives to them. */
+static void note_arguments(struct scene *scene, const struct scene_file *file, int token)
+{
+    int last = file->list.tokens[token + 1].match;
+    for (int argument = token + 2, end, position = 0; argument < last; argument = end + 1, position++) {
+        end = argument_end(file, argument, last);
+        if (says_clear(file, argument, end))
+            note_clear_parameter(scene, name_at(file, token), position);
+    }
+}
+
+/* Notes whether the name that the directive at `token` declares may be transparent. */
 static void note_clear_name(struct scene *scene, const struct scene_file *file, int token)
 {
-    bool macro = is_directive(file, token, "macro"), clear = false, unknown = false;
+    bool macro = is_directive(file, token, "macro");
     int name = declared_name(file, token);
+    if (has_fact(file, token, NAME_DECLARED) && is_call(file, token))
+        note_arguments(scene, file, token);
     if (!name_at(file, name))
         return;
     if (macro)
         note_parameters(scene, file, name);
     int last = macro ? end_of_macro(file, token) : last_of_value(file, name + 1);
-    for (int word = name + 1; word <= last; word++) {
-        clear |= names_clear(file, word);
-        unknown |= !macro && has_fact(file, word, NAME_PARAMETER);
-    }
-    if (clear)
+    if (says_clear(file, name + 1, last + 1))
         note_fact(scene, file, name, NAME_CLEAR);
-    if (unknown)
-        note_fact(scene, file, name, NAME_PARAMETER);
 }
 
 /* Finds the names through which a pigment may be transparent: those declared with a transparent colour or an image, or
- * with such a name. */
+ * with such a name, and the parameters of macros that are called with one. */
 static void note_clear_names(struct scene *scene, const struct scene_file *file)
 {
     for (int token = 0; token < file->list.count - 1; token++)
@@ -462,7 +499,9 @@ static void note_used_token(struct scene *scene, const struct scene_file *file, 
     scene->refracts |= is_word(file, token, "ior");
     scene->mixes |= in_list(file, token, mixing_words) || (is_word(file, token, "blob") && is_mark(file, token + 1, "{") &&
                                                            mixes_components(file, token + 1));
-    scene->may_be_clear |= may_be_clear(file, token, token);
+    /* What is transparent in no braces is a value, to be used by its name. */
+    scene->may_be_clear |= may_be_clear(file, token, token) && file->list.tokens[token].parent >= 0 &&
+                           !inside(file, token, SCENE_BLOCK_SKY);
 }
 
 /* Notes what the user chose to be glossy. */
@@ -536,6 +575,14 @@ static void note_unknown_includes(struct scene *scene)
     }
 }
 
+bool scene_includes_as_it_is(const struct scene *scene)
+{
+    for (int i = 0; i < scene->found_count; i++)
+        if (scene->found[i].file < 0)
+            return true;
+    return false;
+}
+
 double scene_default_gamma(const struct scene *scene)
 {
     return scene->version >= 3.7 ? 1 : GBUFFER_GAMMA_SRGB;
@@ -546,6 +593,7 @@ enum result scene_settle(struct scene *scene, struct error *err)
     scene_note_surfaces(scene);
     scene_note_facts(scene, note_clear_names);
     scene_note_uses(scene);
+    scene->may_be_clear = scene_includes_as_it_is(scene);
     enum result result = count_clear(scene, err);
     if (!result)
         scene_walk_used(scene, note_used_token);

@@ -36,6 +36,7 @@ enum scene_block {
     SCENE_BLOCK_LIGHT_GROUP = 8,
     SCENE_BLOCK_MESH2 = 16,
     SCENE_BLOCK_ARRAY = 32, /* the braces that fill one, where POV-Ray takes no directive and no macro */
+    SCENE_BLOCK_SKY = 64,
 };
 
 /* What the picture of a glossy scene lacks. */
@@ -70,7 +71,7 @@ struct scene {
                               corner */
     bool radiosity;        /* light that a mirror throws onto other things may be computed */
     bool clear_default;    /* an object without a texture may be transparent, by a #default */
-    bool may_be_clear;     /* something that is used may be transparent */
+    bool may_be_clear;     /* something that is used may be transparent, or is unknown */
     bool refracts;         /* something has an index of refraction */
     bool highlights;       /* some finish names the size of a highlight */
     double version;        /* of the scene's first #version; 0: none */
@@ -108,6 +109,9 @@ const char *scene_limit_text(enum scene_limit limit);
 
 /* Calls `note` for each file, round by round, until one adds no fact to any name. */
 void scene_note_facts(struct scene *scene, void (*note)(struct scene *scene, const struct scene_file *file));
+
+/* Whether it includes a file that isn't rewritten. */
+bool scene_includes_as_it_is(const struct scene *scene);
 
 bool scene_has_unknown_include(const struct scene_file *file);
 

@@ -18,7 +18,7 @@ enum name_fact {
     NAME_LAYERED = 1 << 6,       /* as a texture of several layers, */
     NAME_GLOSSABLE = 1 << 7,     /* as a finish, texture or material, */
     NAME_CLEAR = 1 << 8,         /* as something that may be transparent, */
-    NAME_PARAMETER = 1 << 9,     /* as a parameter of a macro, which may be anything, or with one */
+    NAME_PARAMETER = 1 << 9,     /* as a parameter of a macro, */
     NAME_CALLED = 1 << 10,       /* as a macro that the scene may call, */
     NAME_UNION = 1 << 11,        /* as a union that may be taken apart, */
     NAME_WHOLE = 1 << 12,        /* as something that may not, or used so */

@@ -29,19 +29,10 @@ static void note_arguments(struct scene *scene, const struct scene_name *macro, 
     }
 }
 
-/* Whether the scene includes a file that isn't rewritten: the macros that it calls keep their parameters. */
-static bool includes_as_it_is(const struct scene *scene)
-{
-    for (int i = 0; i < scene->found_count; i++)
-        if (scene->found[i].file < 0)
-            return true;
-    return false;
-}
-
 static void note_macro(struct scene *scene, const struct scene_file *file, int macro)
 {
     int last = is_mark(file, macro + 1, "(") ? file->list.tokens[macro + 1].match : -1, position = 0;
-    const bool keeps_parameters = includes_as_it_is(scene);
+    const bool keeps_parameters = scene_includes_as_it_is(scene); /* of the macros that such a file calls */
     for (int token = macro + 2; token < last; token = argument_end(file, token, last) + 1, position++) {
         if (!has_fact(file, token, NAME_SURFACE))
             continue;

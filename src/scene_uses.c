@@ -53,9 +53,7 @@ static void note_file(struct scene *scene, const struct scene_file *file)
 
 void scene_note_uses(struct scene *scene)
 {
-    bool unknown = false;
-    for (int i = 0; i < scene->found_count; i++)
-        unknown |= scene->found[i].file < 0;
+    const bool unknown = scene_includes_as_it_is(scene);
     for (struct scene_name *name = scene->names.declared; unknown && name; name = name->next)
         scene_names_note(&scene->names, name, NAME_USED);
     scene_note_facts(scene, note_file);

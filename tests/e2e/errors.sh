@@ -63,14 +63,14 @@ check "a parse error after blocks of many lines" render_fails 4 "File 'scenes/lo
     cat head.txt
     printf 'plane { y, 0\n  texture {\n    pigment {\n      rgb 0.4\n    }\n    finish {\n      F\n    }\n  }\n}\n  box { oops }\n'
 )
-# Each pass rewrites the scene in its own way: here only one of them gets as far as the error. Some wait for the exponents.
+# Each pass rewrites the scene in its own way: here only one of them gets as far as the error. Some wait for the endpoints.
 mkdir one-pass
 "${povgloss[@]}" passes scenes/glossy.pov "$library" "${size[@]}" --quiet --keep one-pass/kept -o one-pass/kept.exr
 cat > one-pass/povray << SH
 #!/bin/sh
 case "\$(basename "\$PWD")" in
     "\$PASS") ;;
-    exponent) exec cp "$scratch/one-pass/kept/exponent/image.ppm" . ;;
+    endpoint) exec cp "$scratch/one-pass/kept/endpoint/image.ppm" . ;;
     *) exec sleep 60 ;;
 esac
 exec $(command -v povray) "\$@"

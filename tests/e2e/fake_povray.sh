@@ -66,7 +66,7 @@ good
 SH
 check "a pass fails while others run on" fails 4 "exit status 7 in the specular pass" << 'SH'
 [ "$folder" != specular ] || exit 7
-[ "$folder" != exponent ] || { good; exit; }
+[ "$folder" != endpoint ] || { good; exit; }
 exec sleep 300
 SH
 check "nothing written, exit status 0" fails 3 "/image.ppm: cannot be opened" <<< 'exit 0'

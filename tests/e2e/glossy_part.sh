@@ -43,6 +43,14 @@ parts() {
     is_part part base 90 100
 }
 check "passes__small_glossy_sphere__its_rectangle" parts
+# Where all exponents are one, the endpoints tell where something is glossy, unless a total reflection may be in sight.
+exponents() {
+    draw part 0.4 -A && [ ! -e part.keep/exponent ] && is_part part endpoint 3 30 || return 1
+    sed 's/rgb 0.1 }/rgbt <0.1, 0.1, 0.1, 0.5> } interior { ior 1.5 }/' scene.pov > clear.pov
+    "$bin/povgloss" passes clear.pov "+L$root/povscenes" +W160 +H120 -A --quiet --keep clear.keep -o clear.exr &&
+        is_part clear exponent 3 30
+}
+check "exponents__one_for_all__no_pass" exponents
 check "subsampled__of_part_and_whole__the_same" same 0.4 +A0.3 --subsample 4
 check "at_the_border__of_part_and_whole__the_same" same -3.5 -A
 nothing() {

@@ -15,16 +15,36 @@ static double sixteen_bits(double code)
     return (float)(round(code * 65535) / 65535);
 }
 
-/* The header's formula; both digits of one point (or direction) in 16 bits. */
+static void store(double v, struct image *high, struct image *low, int channel, int x, int y)
+{
+    image_row(high, channel, y)[x] = (float)sixteen_bits(v);
+    image_row(low, channel, y)[x] = (float)sixteen_bits(16384 * v - floor(16384 * v));
+}
+
+/* The header's formula; both digits of one point (or direction) in 16 bits. Each row: the axis across the face and its
+ * sign, that of the face, that down it, and the middle of the face in the net. */
 static void encode(const double p[3], bool direction, struct image *high, struct image *low, int x, int y)
 {
-    double length = length_of(p);
-    double radius = direction ? 1 : 1 / 20.0 + 9 / 10.0 * (log10(length) + 12) / 24;
-    for (int axis = 0; axis < 3; axis++) {
-        double v = 0.5 + 0.499 * p[axis] / length * radius, steps = 16384 * v;
-        image_row(high, axis, y)[x] = (float)sixteen_bits(v);
-        image_row(low, axis, y)[x] = (float)sixteen_bits(steps - floor(steps));
+    static const struct {
+        int across, across_sign, axis, sign, up, up_sign;
+        double middle_x, middle_y;
+    } faces[] = {
+        {2, 1, 0, -1, 1, 1, 1 / 8.0, 1 / 2.0},  {0, 1, 2, 1, 1, 1, 3 / 8.0, 1 / 2.0},
+        {2, -1, 0, 1, 1, 1, 5 / 8.0, 1 / 2.0},  {0, -1, 2, -1, 1, 1, 7 / 8.0, 1 / 2.0},
+        {0, 1, 1, 1, 2, -1, 3 / 8.0, 5 / 6.0},  {0, 1, 1, -1, 2, 1, 3 / 8.0, 1 / 6.0},
+    };
+    double largest = fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2])));
+    for (size_t i = 0; i < sizeof faces / sizeof *faces; i++) {
+        if (p[faces[i].axis] * faces[i].sign < largest)
+            continue;
+        double across = faces[i].across_sign * p[faces[i].across] / largest;
+        double up = faces[i].up_sign * p[faces[i].up] / largest;
+        store(0.001 + 0.998 * (faces[i].middle_x + across / 8), high, low, 0, x, y);
+        store(0.001 + 0.998 * (faces[i].middle_y + up / 6), high, low, 1, x, y);
     }
+    store(1 / 20.0 + 9 / 10.0 * (log10(largest) + 12) / 24, high, low, 2, x, y);
+    if (direction)
+        image_row(high, 2, y)[x] = image_row(low, 2, y)[x] = (float)sixteen_bits(0.975);
 }
 
 static double random_number(void)
@@ -117,30 +137,60 @@ static void decode__carry_between_the_digits__no_jump(void **state)
 static void decode__directions__within_1e6_and_w_0(void **state)
 {
     (void)state;
-    struct image high, low, decoded, coarse;
+    struct image high, low, decoded, all, alone;
     struct error err;
     static double d[SIDE * SIDE][3];
     make_images(SIDE, SIDE, &high, &low);
+    assert_ok(image_alloc(&all, SIDE, SIDE, 3, &err), err);
     for (int n = 0; n < SIDE * SIDE; n++) {
         random_direction(n, d[n]);
         encode(d[n], true, &high, &low, n % SIDE, n / SIDE);
+        for (int axis = 0; axis < 3; axis++)
+            image_row(&all, axis, n / SIDE)[n % SIDE] = (float)sixteen_bits(0.5 + 0.499 * d[n][axis]);
     }
     assert_ok(position_code_decode(&high, &low, &decoded, &err), err);
-    assert_ok(position_code_decode(&high, NULL, &coarse, &err), err);
+    assert_ok(position_code_decode(&all, NULL, &alone, &err), err);
     for (int n = 0; n < SIDE * SIDE; n++) {
         double q[3];
         for (int axis = 0; axis < 3; axis++) {
             q[axis] = image_row(&decoded, axis, n / SIDE)[n % SIDE];
             assert_near(q[axis], d[n][axis], 1e-6);
             /* Half a step of 16 bits: 0.5/65535/0.499, on each of the axes. */
-            assert_near(image_row(&coarse, axis, n / SIDE)[n % SIDE], d[n][axis], 2.7e-5);
+            assert_near(image_row(&alone, axis, n / SIDE)[n % SIDE], d[n][axis], 2.7e-5);
         }
         assert_near(length_of(q), 1, 1e-6);
         assert_true(image_row(&decoded, 3, n / SIDE)[n % SIDE] == 0);
-        assert_true(image_row(&coarse, 3, n / SIDE)[n % SIDE] == 0);
+        assert_true(image_row(&alone, 3, n / SIDE)[n % SIDE] == 0);
     }
     free_images(&high, &low, &decoded);
-    image_free(&coarse);
+    image_free(&all);
+    image_free(&alone);
+}
+
+/* An unmixing leaves an error in the digits: next to an edge of the cube none takes the point to another place. */
+static void decode__next_to_the_net__the_nearest_face(void **state)
+{
+    (void)state;
+    static const double edges[][3] = {{2, 2, 0.6}, {-2, -2, 0.6}, {0.6, 2, 2}, {0.6, -2, -2}, {2, 0.6, -2}, {-2, 0.6, -2}};
+    enum { EDGES = sizeof edges / sizeof *edges, STEPS = 9 };
+    struct image high, low, decoded;
+    struct error err;
+    make_images(EDGES, STEPS, &high, &low);
+    for (int y = 0; y < STEPS; y++)
+        for (int x = 0; x < EDGES; x++) {
+            encode(edges[x], false, &high, &low, x, y);
+            for (int axis = 0; axis < 2; axis++) {
+                double v = (double)image_row(&high, axis, y)[x] + 3e-5 * (axis ? y / 3 - 1 : y % 3 - 1);
+                image_row(&high, axis, y)[x] = (float)v;
+                image_row(&low, axis, y)[x] = (float)(16384 * v - floor(16384 * v));
+            }
+        }
+    assert_ok(position_code_decode(&high, &low, &decoded, &err), err);
+    for (int y = 0; y < STEPS; y++)
+        for (int x = 0; x < EDGES; x++)
+            for (int axis = 0; axis < 3; axis++)
+                assert_near(image_row(&decoded, axis, y)[x], edges[x][axis], 2e-3);
+    free_images(&high, &low, &decoded);
 }
 
 static void decode__black__all_zero(void **state)
@@ -278,6 +328,7 @@ int main(void)
         cmocka_unit_test(decode__positions_of_any_size__relative_error_1e7),
         cmocka_unit_test(decode__carry_between_the_digits__no_jump),
         cmocka_unit_test(decode__directions__within_1e6_and_w_0),
+        cmocka_unit_test(decode__next_to_the_net__the_nearest_face),
         cmocka_unit_test(decode__black__all_zero),
         cmocka_unit_test(decode__middle_grey__no_nan),
         cmocka_unit_test(decode__two_sizes__refused_with_both),

@@ -421,10 +421,13 @@ static void copy__pigments_that_may_be_transparent__looked_at_by_povray(void **s
         {MIRROR, "pigment { uv_mapping image_map { \"a.png\" } }",
          "#declare povgloss_cover = pigment { uv_mapping image_map { \"a.png\" } }; povgloss_cover_of_object(1) "
          "povgloss_hide(povgloss_own) "},
-        /* By way of other names, also backwards; parameters of macros may be anything. */
+        /* By way of other names, also backwards, and of macros' parameters. */
         {CODED, "#declare A = B; #declare B = rgbt 1; pigment { A }",
          "#declare A = B; #ifdef (povgloss_of_1) #declare povgloss_of_0 = povgloss_of_1; #end #declare B = rgbt 1; " COVER("pigment { A }", "object")},
-        {CODED, "#macro M(C) pigment { C } #end", "#macro M(C) " COVER("pigment { C }", "object") " #end"},
+        {CODED, "#macro M(C, D) pigment { D } #end M(1, 2) #macro N(E) M(E, rgbt E) #end",
+         "#macro M(C, D) " COVER("pigment { D }", "object") " #end M(1, 2) #macro N(E) M(E, rgbt E) #end"},
+        {CODED, "#macro M(C, D) sphere { 0, 1 pigment { C } } #end M(1, rgbt 2)",
+         "#macro M(C, D) sphere { 0, 1 transform {} } #end M(1, rgbt 2)"},
         {CODED, "#declare A = rgb 1; // rgbt\npigment { A }", "#declare A = rgb 1; // rgbt\ntransform {}"},
         {REFLECTANCE, "#declare F = function { pigment { rgbt 1 } }", NULL},
         {REFLECTANCE, "pigment { rgb 1 }", NULL},
@@ -1103,6 +1106,7 @@ static void load__uses__of_a_library_by_name(void **state)
         {"sphere { 0, 1 texture { Silver } }", false, true, false, false},
         {"Bottle()", false, false, true, true},
         {"#declare Unused = texture { Map }", true, false, false, false},
+        {"#declare Clear = rgbt 1; sky_sphere { pigment { rgbt 1 } }", false, false, false, false},
         {"#include Name", true, true, true, true},
         {"blob { sphere { C, 1, 2 rotate y } cylinder { 0, 1, 2, 3 } pigment { rgb 1 } }", false, false, false, false},
         {"blob { sphere { C, 1, 2 pigment { rgb 1 } } }", true, false, false, false},
