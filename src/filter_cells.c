@@ -40,10 +40,10 @@ bool filter_cell_of_pixel(const struct filter *filter, int x, int y, struct filt
                                  .cap = solid / (float)(2 * pi)};
     for (int i = 0; i < 3; i++) {
         float radiance = *filter_tap_at(filter, FILTER_PLANE_R + (unsigned)i, x, y);
-        node->radiance[i] = solid * radiance;
+        node->radiance[i] = radiance;
         bright += radiance;
     }
-    node->square = solid * bright * bright;
+    node->square = bright * bright;
     return true;
 }
 
@@ -92,11 +92,11 @@ static void layer_of(const struct children *children, float threshold, bool near
         for (int k = 0; k < 4; k++)
             sum[k] += (double)node->solid * (double)at[k];
         for (int k = 0; k < 3; k++)
-            radiance[k] += (double)node->radiance[k];
+            radiance[k] += (double)node->solid * (double)node->radiance[k];
         solid += (double)node->solid;
         cap += (double)node->solid * (double)node->cap;
         variance += (double)node->solid * (double)node->spread;
-        square += (double)node->square;
+        square += (double)node->solid * (double)node->square;
     }
     if (solid == 0)
         return;
@@ -106,9 +106,10 @@ static void layer_of(const struct children *children, float threshold, bool near
                                   .w = (float)(sum[3] / solid),
                                   .solid = (float)solid,
                                   .cap = (float)(cap / solid),
-                                  .radiance = {(float)radiance[0], (float)radiance[1], (float)radiance[2]},
-                                  .square = (float)square};
+                                  .square = (float)(square / solid)};
     const struct places *places = &children->places;
+    for (int k = 0; k < 3; k++)
+        layer->radiance[k] = (float)(radiance[k] / solid);
     for (int k = 0; k < 3; k++)
         mean[k] = (sum[k] - sum[3] * (double)(places->a[k] / places->count)) / solid;
     for (int i = 0; i < children->count; i++) {

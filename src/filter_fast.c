@@ -48,7 +48,7 @@ struct settings {
 
 static const struct settings settings_of[] = {
     [FILTER_QUALITY_DRAFT] = {.smooth = 8, .alike = 0.6f, .akin = 2, .spread = 0.5f, .size = 1 / 5.f, .hidden = 4e-3f},
-    [FILTER_QUALITY_NORMAL] = {.smooth = 3, .alike = 0.3f, .akin = 1, .spread = 0.4f, .size = 1 / 5.f, .hidden = 2e-3f},
+    [FILTER_QUALITY_NORMAL] = {.smooth = 3, .alike = 0.3f, .akin = 1, .spread = 0.4f, .size = 1 / 8.f, .hidden = 2e-3f},
     [FILTER_QUALITY_HIGH] = {.smooth = 1, .alike = 0.2f, .akin = 0.6f, .spread = 0.3f, .size = 1 / 12.f, .hidden = 5e-4f},
 };
 
@@ -114,8 +114,9 @@ struct block {
 bool filter_fast_applies(const struct filter *filter)
 {
     const struct filter_options *options = filter->options;
+    const long pixels = (long)filter->taps.width * filter->taps.height;
     return options->mode == FILTER_MODE_BEST && options->quality != FILTER_QUALITY_EXACT &&
-           options->max_radius_px == 0 && (long)filter->taps.width * filter->taps.height >= LEAST_PIXELS;
+           options->max_radius_px == 0 && (pixels >= LEAST_PIXELS || options->quality == FILTER_QUALITY_DRAFT);
 }
 
 static size_t pixel_of(const struct fast *fast, int x, int y)

@@ -173,28 +173,30 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
     }
     for (int l = 0; l < LANES; l++)
         group->nearest[l] = near[l] > group->nearest[l] ? near[l] : group->nearest[l];
+    const float solid = node->solid, square = node->square;
+    for (int l = 0; l < LANES; l++)
+        weight[l] *= solid;
     for (int i = 0; i < 3; i++) {
-        const float radiance = node->radiance[i], mean = radiance / node->solid;
+        const float radiance = node->radiance[i];
         for (int l = 0; l < LANES; l++) {
             float f = weight[l] * radiance;
             sums[FILTER_MOMENT_R + i][l] += f;
             sums[FILTER_MOMENT_RU + i][l] += f * u[l];
             sums[FILTER_MOMENT_RV + i][l] += f * v[l];
-            float low = weight[l] > 0.0f ? mean : INFINITY, high = weight[l] > 0.0f ? mean : -INFINITY;
+            float low = weight[l] > 0.0f ? radiance : INFINITY, high = weight[l] > 0.0f ? radiance : -INFINITY;
             range->low[i][l] = low < range->low[i][l] ? low : range->low[i][l];
             range->high[i][l] = high > range->high[i][l] ? high : range->high[i][l];
         }
     }
-    const float solid = node->solid, square = node->square;
     for (int l = 0; l < LANES; l++) {
-        float f = weight[l] * solid, fu = f * u[l], fv = f * v[l];
+        float f = weight[l], fu = f * u[l], fv = f * v[l];
         sums[FILTER_MOMENT_1][l] += f;
         sums[FILTER_MOMENT_U][l] += fu;
         sums[FILTER_MOMENT_V][l] += fv;
         sums[FILTER_MOMENT_UU][l] += fu * u[l];
         sums[FILTER_MOMENT_UV][l] += fu * v[l];
         sums[FILTER_MOMENT_VV][l] += fv * v[l];
-        sums[FILTER_MOMENT_SQUARE][l] += weight[l] * square;
+        sums[FILTER_MOMENT_SQUARE][l] += f * square;
     }
 }
 
@@ -234,11 +236,11 @@ ALWAYS_INLINE void pool_node(const struct filter_node *node, const struct filter
         float dx = node->column - group->column[l], dy = node->row - group->row[l];
         f = c > 0.0f ? f : 0.0f;
         f = dx * dx + dy * dy <= lanes->limit[l] ? f : 0.0f;
-        f *= enlarged(node, c * c + place.qq);
+        f *= node->solid * enlarged(node, c * c + place.qq);
         sums[0][l] += f * node->radiance[0];
         sums[1][l] += f * node->radiance[1];
         sums[2][l] += f * node->radiance[2];
-        sums[3][l] += f * node->solid;
+        sums[3][l] += f;
     }
 }
 

@@ -53,8 +53,8 @@ struct filter_node {
     float solid;         /* steradians from their own a's, all together */
     float cap;           /* mean of one's over 2 pi */
     float spread;        /* variance of their directions, seen from the mean of their own a's, radians^2 */
-    float radiance[3];   /* sum of L0 times the solid angle, R, G, B */
-    float square;        /* sum of (R + G + B)^2 times the solid angle */
+    float radiance[3];   /* mean of L0, R, G, B, and of (R + G + B)^2, by the solid angle */
+    float square;
     float column, row;   /* middle, pixels */
     bool visible;        /* from any of the group's sights */
 };
