@@ -455,7 +455,8 @@ static bool lanes_fill(const struct filter *filter, int x, int y, struct filter_
     bool any = false;
     *lanes = filter_lanes_empty(x, y);
     for (int l = 0; l < FILTER_LANES; l++) {
-        used[l] = x + l < filter->taps.width && filter_is_glossy(filter, x + l, y) && lane_fill(filter, x + l, y, l, lanes);
+        used[l] = x + l < filter->taps.width && filter_is_glossy(filter, x + l, y) &&
+                  lane_fill(filter, x + l, y, l, lanes);
         any = any || used[l];
     }
     return any;
@@ -847,9 +848,10 @@ enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_opt
         result = bands_run((height + step - 1) / step, 16, threads, radius_coarse, &filter, err);
     if (result == RESULT_OK)
         result = bands_run(height, 16, threads, radius_fine, &filter, err);
-    if (result == RESULT_OK)
-        result = filter_fast_applies(&filter) ? filter_fast(&filter, err)
-                                              : bands_run(height, 1, threads, paper ? blur_paper : blur_best, &filter, err);
+    if (result == RESULT_OK && filter_fast_applies(&filter))
+        result = filter_fast(&filter, err);
+    else if (result == RESULT_OK)
+        result = bands_run(height, 1, threads, paper ? blur_paper : blur_best, &filter, err);
     if (result == RESULT_OK && atomic_load(&filter.out_of_memory))
         result = error_memory(err, (double)FILTER_SEE_SCRATCH(filter.taps.width));
     if (result == RESULT_OK && gbuffer->rays.pixels)

@@ -27,14 +27,17 @@ enum {
     LARGEST = SIDE << (BLOCK_LEVELS - 1),
     SIGHT_LEVELS = 6, /* the coarsest is of SIGHT_CELL pixels */
     SIGHT_CELL = 1 << (SIGHT_LEVELS - 1),
-    SIGHTS = 64, /* that are kept, while their memory allows: */
+    SIGHTS = 40, /* that are kept, while their memory allows: */
     LEAST_PIXELS = 1 << 14 /* of a picture: the exact sums of a smaller one are as fast */
 };
 
-static const double sights_bytes = 0x1p28;
+static const double sights_bytes = 0x1p27;
 
 /* Lobes above this exponent are narrower than what floats in units of r' tell apart. */
 static const float phong_most = 1e5f;
+
+/* Of tan^2(theta) where the lobe ends, over the square of the angle from a pixel to the next. */
+static const float few_pixels = 300;
 
 /* Units: of the lobe's width, 1/sqrt(p) radians. */
 struct settings {
@@ -47,9 +50,9 @@ struct settings {
 };
 
 static const struct settings settings_of[] = {
-    [FILTER_QUALITY_DRAFT] = {.smooth = 8, .alike = 0.6f, .akin = 2, .spread = 0.5f, .size = 1 / 5.f, .hidden = 4e-3f},
-    [FILTER_QUALITY_NORMAL] = {.smooth = 3, .alike = 0.3f, .akin = 1, .spread = 0.4f, .size = 1 / 8.f, .hidden = 2e-3f},
-    [FILTER_QUALITY_HIGH] = {.smooth = 1, .alike = 0.2f, .akin = 0.6f, .spread = 0.3f, .size = 1 / 12.f, .hidden = 5e-4f},
+    [FILTER_QUALITY_DRAFT] = {8, 0.6f, 1, 0.5f, 1 / 5.f, 4e-3f},
+    [FILTER_QUALITY_NORMAL] = {3, 0.3f, 1, 0.4f, 1 / 8.f, 2e-3f},
+    [FILTER_QUALITY_HIGH] = {1, 0.2f, 0.6f, 0.3f, 1 / 12.f, 5e-4f},
 };
 
 /* The largest of what changes from a pixel to the next, within a block. */
@@ -488,7 +491,8 @@ static struct look look_at(const struct block *block, int k, int x, int y)
         const bool outside = left >= sight->left + sight->width || top >= sight->top + sight->height ||
                              left + size <= sight->left || top + size <= sight->top;
         if (!outside && k < SIGHT_LEVELS) {
-            size_t at = (size_t)(y - (sight->top >> k)) * (size_t)(sight->width >> k) + (size_t)(x - (sight->left >> k));
+            const size_t row = (size_t)(y - (sight->top >> k));
+            const size_t at = row * (size_t)(sight->width >> k) + (size_t)(x - (sight->left >> k));
             mean = sight->levels[k][0][at];
             low = sight->levels[k][1][at];
             high = sight->levels[k][2][at];
@@ -534,9 +538,9 @@ static void cell_walk(struct worker *worker, const struct block *block, int k, i
     const struct filter_cell *cell = k > 0 ? &cells->level[k][(size_t)y * (size_t)cells->width[k] + (size_t)x] : NULL;
     const float column = (float)left + (float)(size - 1) / 2, row = (float)top + (float)(size - 1) / 2;
     struct filter_node node;
-    if (worker->out_of_memory)
-        return;
-    if (cell ? cell->layer[0].solid == 0 && cell->layer[1].solid == 0 : !filter_cell_of_pixel(fast->filter, x, y, &node))
+    const bool empty = cell ? cell->layer[0].solid == 0 && cell->layer[1].solid == 0
+                            : !filter_cell_of_pixel(fast->filter, x, y, &node);
+    if (empty || worker->out_of_memory)
         return;
     struct look look = look_at(block, k, x, y);
     if (!look.visible && away > block->reach_px)
@@ -654,6 +658,22 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
     return true;
 }
 
+/* Whether so few pixels lie in the lobes of 16 x 16 pixels, even of far things, that summing over all of them is
+ * faster; or so narrow lobes are there that clusters would lose them. */
+static bool is_narrow(const struct fast *fast, const struct rate *rate, int x, int y)
+{
+    const struct filter *filter = fast->filter;
+    struct filter_lanes lanes = filter_lanes_empty(x, y);
+    float most = 0;
+    for (int l = 0; l < LANES; l++) {
+        const int u = x + l % SIDE * SIDE, v = y + l / SIDE * SIDE;
+        if (filter_is_inside(filter, u, v) && filter_is_glossy(filter, u, v) &&
+            filter_lane_fill(filter, u, v, l, &lanes))
+            most = fmaxf(most, lanes.reach[l] / lanes.step[l]);
+    }
+    return rate->phong_high > phong_most || (most > 0 && most < few_pixels);
+}
+
 /* Every tap of 16 x 16 pixels' lobes. */
 static void block_exact(struct worker *worker, int x, int y)
 {
@@ -676,7 +696,7 @@ static void block_do(struct worker *worker, int x, int y, int k)
     const struct rate *rate = &fast->rates[k][(size_t)(y / size) * (size_t)fast->across[k] + (size_t)(x / size)];
     if (rate->phong_high == 0)
         return;
-    if (rate->phong_high > phong_most && size == LANES) {
+    if (size == LANES && is_narrow(fast, rate, x, y)) {
         block_exact(worker, x, y);
         return;
     }

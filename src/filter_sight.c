@@ -80,7 +80,10 @@ static void march(const struct sight_planes *planes, int x, int y, int step, int
             size_t tap = (size_t)v * planes->stride + (size_t)(x + dx + FILTER_BORDER);
             march_lanes(planes, tap, eye, dx, (float)k * (float)k, before + dx, state + dx, shares);
             uint8_t *to = hidden + (x + dx) * column + v * row;
-            for (int l = 0; l < LANES && dx + l <= last; l++)
+            const int count = last - dx + 1 < LANES ? last - dx + 1 : LANES;
+            if (column == 1)
+                memcpy(to, shares, (size_t)count);
+            for (int l = 0; l < count && column != 1; l++)
                 to[l * column] = shares[l];
         }
         state[first - 1] = state[first - 2] = INFINITY;
