@@ -281,7 +281,7 @@ const char cli_filter_help[] =
     "  --without W          best: leave out density, visibility, pool or fit, to see what it is worth; may be\n"
     "                       given again\n"
     "  --quality Q          of best: draft, normal (default), high, or exact: every pixel that is seen counts by\n"
-    "                       itself, in a hundred times the time where pictures and lobes are large\n"
+    "                       itself, in up to thirty times the time\n"
     "Filter of --mode paper:\n"
     "  --weights W          exact (default), table (within 0.003 %), or gauss in place of the lobe\n"
     "  --formula F          phong: cos^P, equation (3), default; max: 2 strength cos^P, equation (2);\n"
