@@ -32,12 +32,13 @@ PACKAGES := gcc g++ binutils make libc6-dev pkg-config povray povray-includes po
 PROGRAMS := $(patsubst src/main_%.c,$(BUILD)/bin/%,$(filter-out src/main_view.c,$(wildcard src/main_*.c)))
 # The window of glossfilter --view, where SDL2 is.
 VIEWER := $(BUILD)/lib/povgloss/view
-# The kernel is compiled once per instruction set from one source.
+# The inner loops are compiled once per instruction set from one source each.
 ISAS := sse2 avx2 avx512
-KERNEL_OBJECTS := $(ISAS:%=$(BUILD)/obj/filter_kernel_%.o)
+KERNELS := filter_kernel filter_sight
+KERNEL_OBJECTS := $(foreach kernel,$(KERNELS),$(ISAS:%=$(BUILD)/obj/$(kernel)_%.o))
 # Loaded into POV-Ray for --depfile.
 PRELOAD := $(BUILD)/lib/povgloss/reads.so
-LIB_SOURCES := $(filter-out src/main_%.c src/filter_kernel.c src/preload_reads.c,$(wildcard src/*.c))
+LIB_SOURCES := $(filter-out src/main_%.c $(KERNELS:%=src/%.c) src/preload_reads.c,$(wildcard src/*.c))
 LIB_OBJECTS := $(LIB_SOURCES:src/%.c=$(BUILD)/obj/%.o) $(if $(wildcard src/filter_kernel.c),$(KERNEL_OBJECTS))
 LIBRARY := $(BUILD)/libgloss.a
 # What is installed of it has one function, and no other name that could meet a user's.
@@ -61,9 +62,9 @@ SCENES := $(patsubst povscenes/%.pov,build/scenes/%.png,$(wildcard povscenes/*.p
 .PHONY: all
 all: $(PROGRAMS) $(PRELOAD) $(VIEWER) $(INCLUDE) $(PUBLIC_LIBRARY) ## the programs povgloss and glossfilter, in build/bin
 
-$(BUILD)/obj/filter_kernel_sse2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=sse2
-$(BUILD)/obj/filter_kernel_avx2.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=avx2 -mavx2
-$(BUILD)/obj/filter_kernel_avx512.o: ISA_FLAGS := -DFILTER_KERNEL_ISA=avx512 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mprefer-vector-width=512
+$(KERNELS:%=$(BUILD)/obj/%_sse2.o): ISA_FLAGS := -DFILTER_KERNEL_ISA=sse2
+$(KERNELS:%=$(BUILD)/obj/%_avx2.o): ISA_FLAGS := -DFILTER_KERNEL_ISA=avx2 -mavx2
+$(KERNELS:%=$(BUILD)/obj/%_avx512.o): ISA_FLAGS := -DFILTER_KERNEL_ISA=avx512 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mprefer-vector-width=512
 
 # Changed flags rebuild: the stamp's content is the command line of the compiler.
 FLAGS_STAMP := $(BUILD)/flags
@@ -74,9 +75,12 @@ $(FLAGS_STAMP): force
 .PHONY: force
 force:
 
-$(BUILD)/obj/filter_kernel_%.o: src/filter_kernel.c $(FLAGS_STAMP)
-	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) $(ISA_FLAGS) -MMD -MP -c -o $@ $<
+define KERNEL_RULE
+$(BUILD)/obj/$(1)_%.o: src/$(1).c $(FLAGS_STAMP)
+	@mkdir -p $$(@D)
+	$$(CC) $$(CPPFLAGS) $$(CFLAGS) $$(ISA_FLAGS) -MMD -MP -c -o $$@ $$<
+endef
+$(foreach kernel,$(KERNELS),$(eval $(call KERNEL_RULE,$(kernel))))
 
 $(BUILD)/obj/exr_io.o: CPPFLAGS += $(EXR_CFLAGS)
 $(BUILD)/obj/%.o: src/%.c $(FLAGS_STAMP)

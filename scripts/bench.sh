@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Times of the filter, for docs/performance.md: instruction sets, threads, and the paper's filter with its optimisations.
+# Times of the filter, for docs/performance.md: qualities, instruction sets, threads, and the paper's filter with its
+# optimisations.
 # Fails where an error is above what is stated. Times are medians in seconds of filter_glossy() alone, variants in turn;
 # errors are of the blurred reflection, linear, against the first variant of each table.
 # usage: scripts/bench.sh [SCENE.pov ...]
@@ -25,6 +26,9 @@ for path; do
     passes=$out/$(basename "$path" .pov)${size[0]#+}.exr
     [ -e "$passes" ] || "$bin/povgloss" passes "$path" "${size[@]}" --quiet -o "$passes"
     for p in "${exponents[@]}"; do
+        exact="--phong $p --quality exact"
+        table "$passes" "0 $exact" "0.004 --phong $p --quality high" "0.006 --phong $p" "0.012 --phong $p --quality draft"
+        table "$passes" "0 $exact" "0 $exact --threads 1" "0 $exact --isa avx2" "0 $exact --isa sse2"
         table "$passes" "0 --phong $p" "0 --phong $p --threads 1" "0 --phong $p --isa avx2" "0 --phong $p --isa sse2"
         table "$passes" "0 --phong $p --mode paper" "0.001 --phong $p --mode paper --weights table" \
             "0.02 --phong $p --mode paper --radius-step 4" "inf --phong $p"

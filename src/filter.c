@@ -7,7 +7,8 @@
 
 #include "bands.h"
 #include "control_variate.h"
-#include "filter_kernel.h"
+#include "filter_fast.h"
+#include "filter_internal.h"
 #include "interrupt.h"
 #include "lobe.h"
 #include "weights.h"
@@ -15,14 +16,11 @@
 #include <assert.h>
 #include <float.h>
 #include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* From this exponent on the lobe is narrower than any pixel. */
 static const double mirror_phong = 1e20;
-
-enum { EDGE_REACH_PX = 3 };
 
 static const int neighbours[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
@@ -35,34 +33,11 @@ static const double least_distance = 1e-9;
  * share of that over which what is seen fades out. */
 static const double blind_ratio = 1.21, fade_share = 0.7;
 
-/* See help_needed(); so little that it isn't worth its time is taken off. */
+/* See filter_help_needed(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 16, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.02;
-
-/* How many times larger than from its own a the solid angle of a pixel may be from another: from so near it is no
- * longer one point. */
-static const double most_enlarged = 10;
 
 /* Of fit_plane() and dim_unseen(). */
 static const double ridge = 0.3, even_contrast = 3;
-
-struct filter {
-    const struct gbuffer *gbuffer;
-    const struct filter_options *options;
-    filter_kernel *kernel;
-    filter_see *see;
-    struct filter_taps taps;
-    float *planes;
-    unsigned char *kinds;
-    struct filter_box *boxes;
-    float *table;
-    double length_scale, radiance_scale; /* powers of two that keep squares and sums within the range of a float */
-    double energy;
-    double floor; /* of the best filter's weights */
-    double radius_limit_px;
-    struct image radius, confidence;
-    struct image *glossy;
-    atomic_bool out_of_memory;
-};
 
 struct filter_options filter_options_default(void)
 {
@@ -76,8 +51,7 @@ struct filter_options filter_options_default(void)
     };
 }
 
-/* The exponent of a glossy pixel. */
-static double exponent_at(const struct filter *filter, int x, int y)
+double filter_exponent_at(const struct filter *filter, int x, int y)
 {
     const struct image *phong = &filter->gbuffer->phong;
     bool own = phong->pixels && !filter->options->phong_override;
@@ -195,29 +169,27 @@ static void taps_fill(void *context, int first, int end)
         }
 }
 
-static const float *tap_at(const struct filter *filter, enum filter_plane plane, int x, int y)
+const float *filter_tap_at(const struct filter *filter, enum filter_plane plane, int x, int y)
 {
     return filter->taps.planes[plane] + (size_t)y * filter->taps.stride + (size_t)x + FILTER_BORDER;
 }
 
-static bool is_glossy(const struct filter *filter, int x, int y)
+bool filter_is_glossy(const struct filter *filter, int x, int y)
 {
-    return *tap_at(filter, FILTER_PLANE_GAIN, x, y) > 0;
+    return *filter_tap_at(filter, FILTER_PLANE_GAIN, x, y) > 0;
 }
 
-/* a in the units of the taps. */
-static void position_at(const struct filter *filter, int x, int y, float a[3])
+void filter_position_at(const struct filter *filter, int x, int y, float a[3])
 {
     for (int i = 0; i < 3; i++)
         a[i] = (float)((double)image_row(&filter->gbuffer->position, i, y)[x] * filter->length_scale);
 }
 
-/* Unit direction from a to the tap's b, and its distance (1 for W = 0); a distance of 0 leaves the direction 0. */
-static double direction_to(const struct filter *filter, const float a[3], int x, int y, double direction[3])
+double filter_direction_to(const struct filter *filter, const float a[3], int x, int y, double direction[3])
 {
-    double w = (double)*tap_at(filter, FILTER_PLANE_W, x, y), square = 0;
+    double w = (double)*filter_tap_at(filter, FILTER_PLANE_W, x, y), square = 0;
     for (int i = 0; i < 3; i++) {
-        direction[i] = (double)*tap_at(filter, FILTER_PLANE_X + (unsigned)i, x, y) - w * (double)a[i];
+        direction[i] = (double)*filter_tap_at(filter, FILTER_PLANE_X + (unsigned)i, x, y) - w * (double)a[i];
         square += direction[i] * direction[i];
     }
     double distance = sqrt(square);
@@ -226,7 +198,7 @@ static double direction_to(const struct filter *filter, const float a[3], int x,
     return distance;
 }
 
-static bool is_inside(const struct filter *filter, int x, int y)
+bool filter_is_inside(const struct filter *filter, int x, int y)
 {
     return x >= 0 && y >= 0 && x < filter->taps.width && y < filter->taps.height;
 }
@@ -237,19 +209,19 @@ static bool is_inside(const struct filter *filter, int x, int y)
  * neighbour is glossy. */
 static double ray_step(const struct filter *filter, int x, int y, int right, int down, double step[3])
 {
-    const bool is_position = *tap_at(filter, FILTER_PLANE_W, x, y) > 0;
+    const bool is_position = *filter_tap_at(filter, FILTER_PLANE_W, x, y) > 0;
     float a[3];
     double own[3], least = INFINITY;
-    position_at(filter, x, y, a);
-    const double distance = direction_to(filter, a, x, y, own);
+    filter_position_at(filter, x, y, a);
+    const double distance = filter_direction_to(filter, a, x, y, own);
     for (int sign = -1; sign <= 1; sign += 2) {
         int u = x + sign * right, v = y + sign * down;
         float position[3];
         double other[3], along = 0, square = 0;
-        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
+        if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v))
             continue;
-        position_at(filter, u, v, position);
-        if (direction_to(filter, position, u, v, other) == 0)
+        filter_position_at(filter, u, v, position);
+        if (filter_direction_to(filter, position, u, v, other) == 0)
             continue;
         for (int i = 0; i < 3; i++) {
             double moved = is_position ? (double)position[i] - (double)a[i] : 0;
@@ -298,12 +270,12 @@ static void areas_fill(void *context, int first, int end)
         for (int x = 0; x < taps->width; x++) {
             float *tap = filter->planes + (size_t)y * taps->stride + (size_t)x + FILTER_BORDER, a[3];
             double own[3];
-            if (!is_glossy(filter, x, y))
+            if (!filter_is_glossy(filter, x, y))
                 continue;
-            position_at(filter, x, y, a);
-            double distance = direction_to(filter, a, x, y, own);
+            filter_position_at(filter, x, y, a);
+            double distance = filter_direction_to(filter, a, x, y, own);
             tap[FILTER_PLANE_AREA * plane] = (float)fmax(area_at(filter, x, y, distance), 1e-30);
-            tap[FILTER_PLANE_NEAREST * plane] = (float)(distance * distance / most_enlarged);
+            tap[FILTER_PLANE_NEAREST * plane] = (float)(distance * distance / FILTER_MOST_ENLARGED);
         }
 }
 
@@ -312,15 +284,15 @@ static double radius_from_gradient(const struct filter *filter, int x, int y, do
 {
     float a[3];
     double own[3], step = INFINITY;
-    position_at(filter, x, y, a);
-    if (direction_to(filter, a, x, y, own) == 0)
+    filter_position_at(filter, x, y, a);
+    if (filter_direction_to(filter, a, x, y, own) == 0)
         return 0;
     for (int n = 0; n < 4; n++) {
         int u = x + neighbours[n][0], v = y + neighbours[n][1];
-        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
+        if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v))
             continue;
         double other[3], square = 0;
-        if (direction_to(filter, a, u, v, other) == 0)
+        if (filter_direction_to(filter, a, u, v, other) == 0)
             continue;
         for (int i = 0; i < 3; i++)
             square += (other[i] - own[i]) * (other[i] - own[i]);
@@ -333,7 +305,7 @@ static double radius_from_gradient(const struct filter *filter, int x, int y, do
 static double radius_at(const struct filter *filter, int x, int y)
 {
     const struct gbuffer *gbuffer = filter->gbuffer;
-    double phong = exponent_at(filter, x, y), radius;
+    double phong = filter_exponent_at(filter, x, y), radius;
     if (phong >= mirror_phong)
         return 0;
     double half_angle = lobe_half_angle(phong, filter->energy, filter->options->max_angle_rad);
@@ -358,14 +330,14 @@ static double radius_at(const struct filter *filter, int x, int y)
 static double radius_interpolate(const struct filter *filter, int x, int y)
 {
     int step = filter->options->radius_step, left = x / step * step, top = y / step * step;
-    double sum = 0, weights = 0, phong = exponent_at(filter, x, y);
+    double sum = 0, weights = 0, phong = filter_exponent_at(filter, x, y);
     for (int j = 0; j < 2; j++)
         for (int i = 0; i < 2; i++) {
             int u = left + i * step, v = top + j * step;
             double weight = (1 - abs(x - u) / (double)step) * (1 - abs(y - v) / (double)step);
-            if (weight == 0 || u >= filter->taps.width || v >= filter->taps.height || !is_glossy(filter, u, v))
+            if (weight == 0 || u >= filter->taps.width || v >= filter->taps.height || !filter_is_glossy(filter, u, v))
                 continue;
-            if (exponent_at(filter, u, v) != phong)
+            if (filter_exponent_at(filter, u, v) != phong)
                 continue;
             sum += weight * (double)image_row(&filter->radius, 0, v)[u];
             weights += weight;
@@ -379,7 +351,7 @@ static void radius_coarse(void *context, int first, int end)
     int step = filter->options->radius_step;
     for (int row = first; row < end; row++)
         for (int x = 0; x < filter->taps.width; x += step)
-            if (is_glossy(filter, x, row * step))
+            if (filter_is_glossy(filter, x, row * step))
                 image_row(&filter->radius, 0, row * step)[x] = (float)radius_at(filter, x, row * step);
 }
 
@@ -389,7 +361,7 @@ static void radius_fine(void *context, int first, int end)
     int step = filter->options->radius_step;
     for (int y = first; y < end; y++)
         for (int x = 0; x < filter->taps.width; x++) {
-            if ((x % step == 0 && y % step == 0) || !is_glossy(filter, x, y))
+            if ((x % step == 0 && y % step == 0) || !filter_is_glossy(filter, x, y))
                 continue;
             double radius = radius_interpolate(filter, x, y);
             image_row(&filter->radius, 0, y)[x] = (float)(isnan(radius) ? radius_at(filter, x, y) : radius);
@@ -446,9 +418,9 @@ static void across_axes(const double d[3], struct filter_lanes *lanes, int l)
 static bool lane_fill(const struct filter *filter, int x, int y, int l, struct filter_lanes *lanes)
 {
     float a[3];
-    double direction[3], phong = exponent_at(filter, x, y);
-    position_at(filter, x, y, a);
-    double distance = direction_to(filter, a, x, y, direction);
+    double direction[3], phong = filter_exponent_at(filter, x, y);
+    filter_position_at(filter, x, y, a);
+    double distance = filter_direction_to(filter, a, x, y, direction);
     bool one_tap = filter->options->mode == FILTER_MODE_PAPER && image_row(&filter->radius, 0, y)[x] < 1;
     if (phong >= mirror_phong || distance < least_distance || one_tap)
         return false;
@@ -457,7 +429,7 @@ static bool lane_fill(const struct filter *filter, int x, int y, int l, struct f
         lanes->direction[i][l] = (float)direction[i];
     }
     for (int i = 0; i < 4; i++)
-        lanes->b[i][l] = *tap_at(filter, FILTER_PLANE_X + (unsigned)i, x, y);
+        lanes->b[i][l] = *filter_tap_at(filter, FILTER_PLANE_X + (unsigned)i, x, y);
     across_axes(direction, lanes, l);
     lanes->distance[l] = (float)distance;
     lanes->kinds |= lanes->b[3][l] > 0 ? FILTER_KIND_POSITION : FILTER_KIND_DIRECTION;
@@ -469,14 +441,22 @@ static bool lane_fill(const struct filter *filter, int x, int y, int l, struct f
     return true;
 }
 
+struct filter_lanes filter_lanes_empty(int x, int y)
+{
+    struct filter_lanes lanes = {.x = x, .y = y, .narrow = true, .box = empty_box};
+    for (int l = 0; l < FILTER_LANES; l++)
+        lanes.limit[l] = lanes.blind[l] = -1;
+    return lanes;
+}
+
 /* The lanes' pixels from column x of row y on; used[l]: there is something to sum for lane l. */
 static bool lanes_fill(const struct filter *filter, int x, int y, struct filter_lanes *lanes, bool used[FILTER_LANES])
 {
     bool any = false;
-    *lanes = (struct filter_lanes){.x = x, .y = y, .narrow = true, .box = empty_box};
+    *lanes = filter_lanes_empty(x, y);
     for (int l = 0; l < FILTER_LANES; l++) {
-        lanes->limit[l] = lanes->blind[l] = -1;
-        used[l] = x + l < filter->taps.width && is_glossy(filter, x + l, y) && lane_fill(filter, x + l, y, l, lanes);
+        used[l] = x + l < filter->taps.width && filter_is_glossy(filter, x + l, y) &&
+                  lane_fill(filter, x + l, y, l, lanes);
         any = any || used[l];
     }
     return any;
@@ -493,13 +473,13 @@ static void pixel_write(const struct filter *filter, int x, int y, const double 
     }
 }
 
-/* Whether the picture needs one of the lanes' pixels from column x of row y on: a margin is only looked at. */
-static bool is_needed(const struct filter *filter, int x, int y)
+bool filter_is_needed(const struct filter *filter, int x, int y, int width, int height)
 {
     const struct image_window *window = &filter->gbuffer->window;
-    return window->width == 0 || (y >= window->top - EDGE_REACH_PX && y < window->top + window->height + EDGE_REACH_PX &&
-                                  x + FILTER_LANES > window->left - EDGE_REACH_PX &&
-                                  x < window->left + window->width + EDGE_REACH_PX);
+    const int reach = FILTER_EDGE_REACH_PX;
+    return window->width == 0 ||
+           (y + height > window->top - reach && y < window->top + window->height + reach &&
+            x + width > window->left - reach && x < window->left + window->width + reach);
 }
 
 static void blur_paper(void *context, int first, int end)
@@ -507,7 +487,7 @@ static void blur_paper(void *context, int first, int end)
     struct filter *filter = context;
     for (int y = first; y < end; y++)
         for (int x = 0; x < filter->taps.width && !interrupt_signal(); x += FILTER_LANES) {
-            if (!is_needed(filter, x, y))
+            if (!filter_is_needed(filter, x, y, FILTER_LANES, 1))
                 continue;
             struct filter_lanes lanes;
             struct filter_sums sums = {0};
@@ -521,7 +501,7 @@ static void blur_paper(void *context, int first, int end)
             if (any)
                 filter->kernel(&filter->taps, &lanes, &sums);
             for (int l = 0; l < FILTER_LANES && x + l < filter->taps.width; l++)
-                if (is_glossy(filter, x + l, y))
+                if (filter_is_glossy(filter, x + l, y))
                     pixel_write(filter, x + l, y,
                                 (double[]){sums.value[0][l], sums.value[1][l], sums.value[2][l]}, sums.value[3][l]);
         }
@@ -534,15 +514,15 @@ static double gradient_least(const struct filter *filter, int x, int y)
     const double margin = 1.5;
     double own[3], least = INFINITY;
     float a[3];
-    position_at(filter, x, y, a);
-    direction_to(filter, a, x, y, own);
+    filter_position_at(filter, x, y, a);
+    filter_direction_to(filter, a, x, y, own);
     for (int n = 0; n < 4; n++) {
         int u = x + neighbours[n][0], v = y + neighbours[n][1];
         double other[3], square = 0;
-        if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
+        if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v))
             continue;
-        position_at(filter, u, v, a);
-        direction_to(filter, a, u, v, other);
+        filter_position_at(filter, u, v, a);
+        filter_direction_to(filter, a, u, v, other);
         for (int i = 0; i < 3; i++)
             square += (other[i] - own[i]) * (other[i] - own[i]);
         least = fmin(least, square);
@@ -558,26 +538,23 @@ static double lobe_reach(const struct filter *filter, double phong)
     return fmin(fmin(reach, filter->options->max_angle_rad < pi / 2 ? limit * limit : INFINITY), ninety_degrees);
 }
 
-/* What the sums over all endpoints about a pixel, seen from its a or not, count beside the sums over what is seen. */
-struct help {
-    double share;   /* factor of these sums */
-    double missing; /* their weights come to this many steradians besides */
-};
-
 /* A lobe that is narrow for the mirror's curvature holds few pixels, and chance errs more there than what should be
  * hidden: share = (pool_pixels / pixels in the lobe)^2, less a little. And half of what no seen pixel covers is taken
  * from the others. */
-static struct help help_needed(const struct filter *filter, const struct filter_lanes *lanes, int l, double seen)
+struct filter_help filter_help_needed(const struct filter *filter, int x, int y, double seen)
 {
-    double phong = exponent_at(filter, lanes->x + l, lanes->y), distance = (double)lanes->distance[l];
-    double area = (double)*tap_at(filter, FILTER_PLANE_AREA, lanes->x + l, lanes->y);
+    double phong = filter_exponent_at(filter, x, y), direction[3];
+    float a[3];
+    filter_position_at(filter, x, y, a);
+    double distance = filter_direction_to(filter, a, x, y, direction);
+    double area = (double)*filter_tap_at(filter, FILTER_PLANE_AREA, x, y);
     double pixels = lobe_integral(phong, 0) / (area / (distance * distance + area / (2 * pi)));
     double lobe = lobe_integral(phong, filter->floor);
     double few = pool_pixels / pixels;
-    struct help help = {.share = fmax(few * few - pool_share_least, 0),
-                        .missing = missing_share * fmax((1 - missing_least) * lobe - seen, 0)};
-    if (filter->options->without & FILTER_WITHOUT_POOL || image_row(&filter->radius, 0, lanes->y)[lanes->x + l] < 1)
-        return (struct help){0};
+    struct filter_help help = {.share = fmax(few * few - pool_share_least, 0),
+                               .missing = missing_share * fmax((1 - missing_least) * lobe - seen, 0)};
+    if (filter->options->without & FILTER_WITHOUT_POOL || image_row(&filter->radius, 0, y)[x] < 1)
+        return (struct filter_help){0};
     return help;
 }
 
@@ -623,33 +600,74 @@ static void dim_unseen(const struct filter_moments *seen, int l, double confiden
     }
 }
 
-static void blur_best_lanes(struct filter *filter, int x, int y, float *scratch)
+bool filter_lane_fill(const struct filter *filter, int x, int y, int l, struct filter_lanes *lanes)
 {
-    struct filter_lanes lanes;
+    const bool everything = filter->options->without & FILTER_WITHOUT_VISIBILITY;
+    if (!lane_fill(filter, x, y, l, lanes))
+        return false;
+    const double reach = lobe_reach(filter, filter_exponent_at(filter, x, y));
+    lanes->floor = (float)filter->floor;
+    lanes->reach[l] = (float)reach;
+    lanes->blind[l] = everything ? FLT_MAX : (float)((double)lanes->reach[l] * blind_ratio);
+    lanes->fade[l] = everything ? 1 : (float)(1 / ((double)lanes->reach[l] * blind_ratio * fade_share));
+    lanes->step[l] = (float)gradient_least(filter, x, y);
+    return true;
+}
+
+void filter_write_mirror(struct filter *filter, int x, int y)
+{
+    pixel_write(filter, x, y, (double[3]){0}, 0);
+    image_row(&filter->confidence, 0, y)[x] = 1;
+}
+
+void filter_write_best(struct filter *filter, int x, int y, int l, const struct filter_moments *seen,
+                       const struct filter_sums *pool, struct filter_help help)
+{
+    double mean[3], share = help.share;
+    if (help.missing > 0 && pool->value[3][l] > 0)
+        share += help.missing / pool->value[3][l];
+    double phong = filter_exponent_at(filter, x, y), weight = seen->value[FILTER_MOMENT_1][l];
+    double confidence = fmin(weight / lobe_integral(phong, filter->floor), 1);
+    const bool fit = weight > 0 && !(filter->options->without & FILTER_WITHOUT_FIT);
+    for (int i = 0; i < 3; i++)
+        mean[i] = seen->value[FILTER_MOMENT_R + i][l] / weight;
+    if (fit)
+        fit_plane(seen, l, phong, mean);
+    for (int i = 0; i < 3; i++)
+        mean[i] = (mean[i] * weight + share * pool->value[i][l]) / (weight + share * pool->value[3][l]);
+    if (fit)
+        dim_unseen(seen, l, confidence, mean);
+    pixel_write(filter, x, y, mean, weight > 0 ? 1 : 0);
+    image_row(&filter->confidence, 0, y)[x] = (float)confidence;
+}
+
+void filter_best_lanes(struct filter *filter, int x, int y, float *scratch)
+{
+    struct filter_lanes lanes = filter_lanes_empty(x, y);
     struct filter_moments seen = {0};
     struct filter_sums pool = {0};
-    struct help help[FILTER_LANES] = {{0}};
-    bool used[FILTER_LANES], steep = lanes_fill(filter, x, y, &lanes, used), any_help = false;
-    const bool any = steep, narrow = lanes.narrow;
-    const bool everything = filter->options->without & FILTER_WITHOUT_VISIBILITY;
+    struct filter_help help[FILTER_LANES] = {{0}};
+    bool used[FILTER_LANES] = {false}, any = false, any_help = false, steep = true;
+    for (int l = 0; l < FILTER_LANES && x + l < filter->taps.width; l++) {
+        if (!filter_is_glossy(filter, x + l, y))
+            continue;
+        used[l] = filter_lane_fill(filter, x + l, y, l, &lanes);
+        if (!used[l])
+            filter_write_mirror(filter, x + l, y);
+        any = any || used[l];
+        steep = steep && (!used[l] || lanes.reach[l] <= FILTER_NARROW_REACH);
+    }
+    if (!any)
+        return;
     lanes.limit_px = (int)filter->radius_limit_px;
-    lanes.floor = (float)filter->floor;
+    const bool narrow = lanes.narrow;
+    lanes.narrow = steep;
+    filter->see(&filter->taps, &lanes, scratch, &seen);
+    lanes.narrow = narrow;
     for (int l = 0; l < FILTER_LANES; l++) {
         if (!used[l])
             continue;
-        lanes.reach[l] = (float)lobe_reach(filter, exponent_at(filter, x + l, y));
-        lanes.blind[l] = everything ? FLT_MAX : (float)((double)lanes.reach[l] * blind_ratio);
-        lanes.fade[l] = everything ? 1 : (float)(1 / ((double)lanes.reach[l] * blind_ratio * fade_share));
-        lanes.step[l] = (float)gradient_least(filter, x + l, y);
-        steep = steep && lanes.reach[l] <= FILTER_NARROW_REACH;
-    }
-    lanes.narrow = steep;
-    if (any)
-        filter->see(&filter->taps, &lanes, scratch, &seen);
-    lanes.narrow = narrow;
-    for (int l = 0; l < FILTER_LANES; l++) {
-        if (used[l])
-            help[l] = help_needed(filter, &lanes, l, seen.value[3][l]);
+        help[l] = filter_help_needed(filter, x + l, y, seen.value[FILTER_MOMENT_1][l]);
         if (help[l].share == 0 && help[l].missing == 0)
             continue;
         double radius = (double)image_row(&filter->radius, 0, y)[x + l];
@@ -658,52 +676,35 @@ static void blur_best_lanes(struct filter *filter, int x, int y, float *scratch)
     }
     if (any_help)
         filter->kernel(&filter->taps, &lanes, &pool);
-    for (int l = 0; l < FILTER_LANES && x + l < filter->taps.width; l++) {
-        if (!is_glossy(filter, x + l, y))
-            continue;
-        double mean[3], share = help[l].share;
-        if (help[l].missing > 0 && pool.value[3][l] > 0)
-            share += help[l].missing / pool.value[3][l];
-        double phong = exponent_at(filter, x + l, y), weight = seen.value[FILTER_MOMENT_1][l];
-        double confidence = used[l] ? fmin(weight / lobe_integral(phong, filter->floor), 1) : 1;
-        const bool fit = weight > 0 && !(filter->options->without & FILTER_WITHOUT_FIT);
-        for (int i = 0; i < 3; i++)
-            mean[i] = seen.value[FILTER_MOMENT_R + i][l] / weight;
-        if (fit)
-            fit_plane(&seen, l, phong, mean);
-        for (int i = 0; i < 3; i++)
-            mean[i] = (mean[i] * weight + share * pool.value[i][l]) / (weight + share * pool.value[3][l]);
-        if (fit)
-            dim_unseen(&seen, l, confidence, mean);
-        pixel_write(filter, x + l, y, mean, weight > 0 ? 1 : 0);
-        image_row(&filter->confidence, 0, y)[x + l] = (float)confidence;
-    }
+    for (int l = 0; l < FILTER_LANES; l++)
+        if (used[l])
+            filter_write_best(filter, x + l, y, l, &seen, &pool, help[l]);
 }
 
 static void blur_best(void *context, int first, int end)
 {
     struct filter *filter = context;
-    float *scratch = aligned_alloc(64, FILTER_SEE_COLUMNS(filter->taps.width) * 3 * FILTER_LANES * sizeof *scratch);
+    float *scratch = aligned_alloc(64, FILTER_SEE_SCRATCH(filter->taps.width));
     if (!scratch) {
         atomic_store(&filter->out_of_memory, true);
         return;
     }
     for (int y = first; y < end; y++)
         for (int x = 0; x < filter->taps.width && !interrupt_signal(); x += FILTER_LANES)
-            if (is_needed(filter, x, y))
-                blur_best_lanes(filter, x, y, scratch);
+            if (filter_is_needed(filter, x, y, FILTER_LANES, 1))
+                filter_best_lanes(filter, x, y, scratch);
     free(scratch);
 }
 
 /* Mean of the results of the nearest ring of pixels that has glossy ones. */
 static void edge_fill(const struct filter *filter, int x, int y)
 {
-    for (int reach = 1; reach <= EDGE_REACH_PX; reach++) {
+    for (int reach = 1; reach <= FILTER_EDGE_REACH_PX; reach++) {
         double sum[3] = {0};
         int count = 0;
         for (int v = y - reach; v <= y + reach; v++)
             for (int u = x - reach; u <= x + reach; u++) {
-                if (!is_inside(filter, u, v) || !is_glossy(filter, u, v))
+                if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v))
                     continue;
                 for (int i = 0; i < 3; i++)
                     sum[i] += (double)image_row(filter->glossy, i, v)[u];
@@ -725,7 +726,7 @@ static void edges(void *context, int first, int end)
             bool reflects = false;
             for (int i = 0; i < 3; i++)
                 reflects = reflects || image_row(reflectance, i, y)[x] > 0;
-            if (reflects && !is_glossy(filter, x, y))
+            if (reflects && !filter_is_glossy(filter, x, y))
                 edge_fill(filter, x, y);
         }
 }
@@ -774,11 +775,15 @@ static enum result filter_alloc(struct filter *filter, struct error *err)
                                                           [CPU_ISA_AVX512] = filter_kernel_avx512};
     static filter_see *const sees[CPU_ISA_COUNT] = {
         [CPU_ISA_SSE2] = filter_see_sse2, [CPU_ISA_AVX2] = filter_see_avx2, [CPU_ISA_AVX512] = filter_see_avx512};
+    static const struct sight_kernel *const sights[CPU_ISA_COUNT] = {[CPU_ISA_SSE2] = &sight_kernel_sse2,
+                                                                     [CPU_ISA_AVX2] = &sight_kernel_avx2,
+                                                                     [CPU_ISA_AVX512] = &sight_kernel_avx512};
     const struct filter_options *options = filter->options;
     const int width = filter->gbuffer->specular.width, height = filter->gbuffer->specular.height;
     const enum cpu_isa isa = options->isa == CPU_ISA_AUTO ? cpu_isa_best() : options->isa;
     filter->kernel = kernels[isa];
     filter->see = sees[isa];
+    filter->sight = sights[isa];
     filter->energy = options->energy > 0 ? options->energy : 0.99;
     filter->floor = options->energy > 0 ? 1 - options->energy : 0.001;
     filter->radius_limit_px = hypot(width, height);
@@ -843,10 +848,12 @@ enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_opt
         result = bands_run((height + step - 1) / step, 16, threads, radius_coarse, &filter, err);
     if (result == RESULT_OK)
         result = bands_run(height, 16, threads, radius_fine, &filter, err);
-    if (result == RESULT_OK)
+    if (result == RESULT_OK && filter_fast_applies(&filter))
+        result = filter_fast(&filter, err);
+    else if (result == RESULT_OK)
         result = bands_run(height, 1, threads, paper ? blur_paper : blur_best, &filter, err);
     if (result == RESULT_OK && atomic_load(&filter.out_of_memory))
-        result = error_memory(err, (double)(FILTER_SEE_COLUMNS(filter.taps.width) * 3 * FILTER_LANES * sizeof(float)));
+        result = error_memory(err, (double)FILTER_SEE_SCRATCH(filter.taps.width));
     if (result == RESULT_OK && gbuffer->rays.pixels)
         result = control_variate(gbuffer, options->phong_override ? options->phong : NAN, threads, glossy, err);
     if (result == RESULT_OK && gbuffer->reflectance.pixels)

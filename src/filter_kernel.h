@@ -131,11 +131,12 @@ filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;
  * reach. On the way to a tap lie both neighbours between which the straight line comes in, and the one with the smaller
  * t counts.
  *
- * scratch: FILTER_SEE_COLUMNS(width) * 3 * FILTER_LANES floats, aligned to 64 bytes, with any content. */
+ * scratch: FILTER_SEE_SCRATCH(width) bytes, aligned to 64, with any content. */
 typedef void filter_see(const struct filter_taps *taps, const struct filter_lanes *lanes, float *scratch,
                         struct filter_moments *sums);
 
 #define FILTER_SEE_COLUMNS(width) ((size_t)(width) + 64)
+#define FILTER_SEE_SCRATCH(width) (FILTER_SEE_COLUMNS(width) * 3 * FILTER_LANES * sizeof(float))
 
 filter_see filter_see_sse2, filter_see_avx2, filter_see_avx512;
 

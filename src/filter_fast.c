@@ -1,0 +1,807 @@
+/* The best filter, fast: what the exact sums do for each pixel alone, shared.
+ *
+ * - Blocks of 4 x 4 pixels are computed together, 16 to 1 pixels apart: as far as the things that they see shift by
+ *   little of the lobe from one to the next. What lies between is interpolated.
+ * - Taps are clustered (filter_cells.h): a cell is used whole where it is small for its distance, its directions
+ *   differ by little of the lobe, and it is seen whole or not at all.
+ * - What is seen is found (filter_sight.h) for few pixels, on a lattice, and interpolated for those between by the
+ *   share of each cell that is hidden. What hides may be narrower than any cell: a sight looks at every pixel.
+ *
+ * Each row of the largest blocks is done by itself, so that the result doesn't depend on the threads.
+ */
+#include "filter_fast.h"
+
+#include "bands.h"
+#include "filter_cells.h"
+#include "interrupt.h"
+#include "lobe.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    LANES = FILTER_LANES,
+    SIDE = 4,         /* computed pixels across a block */
+    BLOCK_LEVELS = 5, /* of blocks whose pixels are 1, 2, 4, 8 and 16 apart */
+    LARGEST = SIDE << (BLOCK_LEVELS - 1),
+    SIGHT_LEVELS = 6, /* the coarsest is of SIGHT_CELL pixels */
+    SIGHT_CELL = 1 << (SIGHT_LEVELS - 1),
+    SIGHTS = 40, /* that are kept, while their memory allows: */
+    LEAST_PIXELS = 1 << 14 /* of a picture: the exact sums of a smaller one are as fast */
+};
+
+static const double sights_bytes = 0x1p27;
+
+/* Lobes above this exponent are narrower than what floats in units of r' tell apart. */
+static const float phong_most = 1e5f;
+
+/* Of tan^2(theta) where the lobe ends, over the square of the angle from a pixel to the next. */
+static const float few_pixels = 300;
+
+/* Units: of the lobe's width, 1/sqrt(p) radians. */
+struct settings {
+    float smooth; /* things shift by no more over a block */
+    float alike;  /* and over a lattice of sights */
+    float akin;   /* the same where no lattice is so fine */
+    float spread; /* of the directions of a cell that is used whole */
+    float size;   /* of such a cell, of its distance in pixels (no unit) */
+    float hidden; /* what the hidden share of such a cell may be off, of the whole lobe's weight (no unit) */
+};
+
+static const struct settings settings_of[] = {
+    [FILTER_QUALITY_DRAFT] = {8, 0.6f, 1, 0.5f, 1 / 5.f, 4e-3f},
+    [FILTER_QUALITY_NORMAL] = {3, 0.3f, 1, 0.4f, 1 / 8.f, 2e-3f},
+    [FILTER_QUALITY_HIGH] = {1, 0.2f, 0.6f, 0.3f, 1 / 12.f, 5e-4f},
+};
+
+/* The largest of what changes from a pixel to the next, within a block. */
+struct rate {
+    float turn;                   /* of the direction, radians */
+    float move;                   /* of a */
+    float phong_low, phong_high;  /* low is 0 where not all is glossy; high is 0 where nothing is */
+};
+
+struct fast {
+    struct filter *filter;
+    const struct settings *settings;
+    struct filter_cells cells;
+    struct sight_planes rows, columns;
+    float *transposed;
+    struct rate *rates[BLOCK_LEVELS];
+    int across[BLOCK_LEVELS], down[BLOCK_LEVELS]; /* blocks */
+    unsigned char *known, *apart; /* of each pixel: its result is there; log2 of how far apart its block's pixels are */
+    atomic_bool out_of_memory;
+};
+
+/* What a pixel sees, in a rectangle of whole cells outside which all is hidden. */
+struct sight {
+    int x, y;
+    long used; /* when; 0: never */
+    int left, top, width, height;
+    uint8_t *data;
+    size_t capacity;
+    uint8_t *levels[SIGHT_LEVELS][3]; /* mean, least and largest hidden share */
+};
+
+/* What one thread works with. */
+struct worker {
+    struct fast *fast;
+    struct sight sights[SIGHTS];
+    int sight_count; /* that may be kept */
+    long clock;
+    uint8_t *map; /* of the picture, in whole cells: all hidden but while a sight is made */
+    int map_width;
+    float *scratch, *exact; /* of sight_march, of filter_best_lanes */
+    struct filter_node *nodes;
+    float *hidden; /* SIGHTS_OF_GROUP a node */
+    int count, capacity;
+    bool out_of_memory;
+};
+
+/* A block's pixels, how they see, and what they may use whole. */
+struct block {
+    int left, top, right, bottom; /* of the computed pixels */
+    int finest;                   /* cells of so many pixels are always used whole */
+    int reach_px;                 /* of the pool */
+    int middle;                   /* a lane in the middle */
+    double lobe;                  /* its integral, steradians */
+    float spread_limit;           /* radians^2 */
+    bool everything;              /* is seen */
+    const struct sight *sights[SIGHTS_OF_GROUP];
+    int xs[LANES], ys[LANES];
+    bool used[LANES];
+    struct filter_group group;
+};
+
+bool filter_fast_applies(const struct filter *filter)
+{
+    const struct filter_options *options = filter->options;
+    const long pixels = (long)filter->taps.width * filter->taps.height;
+    return options->mode == FILTER_MODE_BEST && options->quality != FILTER_QUALITY_EXACT &&
+           options->max_radius_px == 0 && (pixels >= LEAST_PIXELS || options->quality == FILTER_QUALITY_DRAFT);
+}
+
+static size_t pixel_of(const struct fast *fast, int x, int y)
+{
+    return (size_t)y * (size_t)fast->filter->taps.width + (size_t)x;
+}
+
+/* --- what is built once --- */
+
+static struct rate rate_of_pixel(const struct filter *filter, int x, int y)
+{
+    struct rate rate = {0};
+    float a[3];
+    double direction[3];
+    if (!filter_is_glossy(filter, x, y))
+        return rate;
+    filter_position_at(filter, x, y, a);
+    filter_direction_to(filter, a, x, y, direction);
+    rate.phong_low = rate.phong_high = (float)filter_exponent_at(filter, x, y);
+    for (int n = 0; n < 2; n++) {
+        const int u = x + (n == 0), v = y + (n == 1);
+        if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v)) {
+            rate.phong_low = 0;
+            continue;
+        }
+        float position[3];
+        double other[3], turn = 0, move = 0;
+        filter_position_at(filter, u, v, position);
+        filter_direction_to(filter, position, u, v, other);
+        for (int i = 0; i < 3; i++) {
+            turn += (other[i] - direction[i]) * (other[i] - direction[i]);
+            move += (double)(position[i] - a[i]) * (double)(position[i] - a[i]);
+        }
+        rate.turn = fmaxf(rate.turn, (float)sqrt(turn));
+        rate.move = fmaxf(rate.move, (float)sqrt(move));
+    }
+    return rate;
+}
+
+static void rate_add(struct rate *sum, struct rate rate)
+{
+    sum->turn = fmaxf(sum->turn, rate.turn);
+    sum->move = fmaxf(sum->move, rate.move);
+    sum->phong_low = fminf(sum->phong_low, rate.phong_low);
+    sum->phong_high = fmaxf(sum->phong_high, rate.phong_high);
+}
+
+/* Rates of level k's blocks, of pixels or of the blocks of the level below. */
+static void rates_fill(struct fast *fast, int k)
+{
+    const int factor = k == 0 ? SIDE : 2;
+    const int width = k == 0 ? fast->filter->taps.width : fast->across[k - 1];
+    const int height = k == 0 ? fast->filter->taps.height : fast->down[k - 1];
+    for (int y = 0; y < fast->down[k]; y++)
+        for (int x = 0; x < fast->across[k]; x++) {
+            struct rate rate = {.phong_low = INFINITY};
+            for (int v = y * factor; v < (y + 1) * factor; v++)
+                for (int u = x * factor; u < (x + 1) * factor; u++) {
+                    if (u >= width || v >= height)
+                        rate.phong_low = 0;
+                    else if (k == 0)
+                        rate_add(&rate, rate_of_pixel(fast->filter, u, v));
+                    else
+                        rate_add(&rate, fast->rates[k - 1][(size_t)v * (size_t)width + (size_t)u]);
+                }
+            fast->rates[k][(size_t)y * (size_t)fast->across[k] + (size_t)x] = rate;
+        }
+}
+
+static enum result rates_build(struct fast *fast, struct error *err)
+{
+    for (int k = 0; k < BLOCK_LEVELS; k++) {
+        const int size = SIDE << k;
+        fast->across[k] = (fast->filter->taps.width + size - 1) / size;
+        fast->down[k] = (fast->filter->taps.height + size - 1) / size;
+        const size_t count = (size_t)fast->across[k] * (size_t)fast->down[k];
+        fast->rates[k] = malloc(count * sizeof *fast->rates[k]);
+        if (!fast->rates[k])
+            return error_memory(err, (double)count * (double)sizeof *fast->rates[k]);
+        rates_fill(fast, k);
+    }
+    return RESULT_OK;
+}
+
+/* The taps by columns. */
+static enum result columns_build(struct fast *fast, struct error *err)
+{
+    static const enum filter_plane from[] = {FILTER_PLANE_X, FILTER_PLANE_Y, FILTER_PLANE_Z, FILTER_PLANE_W,
+                                             FILTER_PLANE_AREA};
+    enum { PLANES = sizeof from / sizeof from[0] };
+    const struct filter_taps *taps = &fast->filter->taps;
+    const float *planes[PLANES];
+    const size_t stride = ((size_t)taps->height + LANES - 1) / LANES * LANES + 2 * FILTER_BORDER;
+    const size_t plane = stride * (size_t)taps->width;
+    fast->transposed = calloc(PLANES * plane, sizeof *fast->transposed);
+    if (!fast->transposed)
+        return error_memory(err, (double)(PLANES * plane * sizeof *fast->transposed));
+    for (int i = 0; i < PLANES; i++) {
+        float *to = fast->transposed + (size_t)i * plane;
+        planes[i] = to;
+        for (int y = 0; y < taps->height; y++)
+            for (int x = 0; x < taps->width; x++)
+                to[(size_t)x * stride + (size_t)y + FILTER_BORDER] = *filter_tap_at(fast->filter, from[i], x, y);
+    }
+    fast->rows = (struct sight_planes){.width = taps->width,
+                                       .height = taps->height,
+                                       .stride = taps->stride,
+                                       .x = taps->planes[FILTER_PLANE_X],
+                                       .y = taps->planes[FILTER_PLANE_Y],
+                                       .z = taps->planes[FILTER_PLANE_Z],
+                                       .w = taps->planes[FILTER_PLANE_W],
+                                       .area = taps->planes[FILTER_PLANE_AREA]};
+    fast->columns = (struct sight_planes){.width = taps->height,
+                                          .height = taps->width,
+                                          .stride = stride,
+                                          .x = planes[0],
+                                          .y = planes[1],
+                                          .z = planes[2],
+                                          .w = planes[3],
+                                          .area = planes[4]};
+    return RESULT_OK;
+}
+
+/* --- sights --- */
+
+/* Whether the things that both pixels see shift by less than `limit` of the lobe's width from one to the other. */
+static bool is_alike(const struct filter *filter, int x, int y, int u, int v, double limit)
+{
+    if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v) ||
+        filter_exponent_at(filter, x, y) != filter_exponent_at(filter, u, v))
+        return false;
+    float a[2][3];
+    double direction[2][3], turn = 0, move = 0;
+    filter_position_at(filter, x, y, a[0]);
+    filter_position_at(filter, u, v, a[1]);
+    const double here = filter_direction_to(filter, a[0], x, y, direction[0]);
+    const double there = filter_direction_to(filter, a[1], u, v, direction[1]);
+    for (int i = 0; i < 3; i++) {
+        turn += (direction[1][i] - direction[0][i]) * (direction[1][i] - direction[0][i]);
+        move += (double)(a[1][i] - a[0][i]) * (double)(a[1][i] - a[0][i]);
+    }
+    const double near = fmax((double)*filter_tap_at(filter, FILTER_PLANE_W, x, y) / here,
+                             (double)*filter_tap_at(filter, FILTER_PLANE_W, u, v) / there);
+    return sqrt(turn) + sqrt(move) * near < limit / sqrt(filter_exponent_at(filter, x, y) + 1);
+}
+
+/* Takes the marched map over, and makes its coarser levels. The map is all hidden again. */
+static bool sight_keep(struct worker *worker, struct sight *sight, struct sight_extent extent)
+{
+    sight->left = extent.left / SIGHT_CELL * SIGHT_CELL;
+    sight->top = extent.top / SIGHT_CELL * SIGHT_CELL;
+    sight->width = (extent.right / SIGHT_CELL + 1) * SIGHT_CELL - sight->left;
+    sight->height = (extent.bottom / SIGHT_CELL + 1) * SIGHT_CELL - sight->top;
+    const size_t area = (size_t)sight->width * (size_t)sight->height;
+    if (2 * area > sight->capacity) {
+        free(sight->data);
+        sight->data = malloc(2 * area); /* 1 + 3/4 + 3/16 ... */
+        sight->capacity = sight->data ? 2 * area : 0;
+        if (!sight->data)
+            return false;
+    }
+    uint8_t *to = sight->data;
+    for (int y = 0; y < sight->height; y++) {
+        uint8_t *from = worker->map + (size_t)(sight->top + y) * (size_t)worker->map_width + sight->left;
+        memcpy(to + (size_t)y * (size_t)sight->width, from, (size_t)sight->width);
+        memset(from, SIGHT_HIDDEN, (size_t)sight->width);
+    }
+    sight->levels[0][0] = sight->levels[0][1] = sight->levels[0][2] = to;
+    to += area;
+    for (int k = 1; k < SIGHT_LEVELS; k++) {
+        for (int i = 0; i < 3; i++, to += area >> (2 * k))
+            sight->levels[k][i] = to;
+        worker->fast->filter->sight->reduce((const uint8_t *const *)sight->levels[k - 1], sight->width >> (k - 1),
+                                            sight->height >> (k - 1), sight->levels[k]);
+    }
+    return true;
+}
+
+static bool sight_make(struct worker *worker, struct sight *sight, int x, int y)
+{
+    const struct fast *fast = worker->fast;
+    const struct filter *filter = fast->filter;
+    const struct sight_kernel *kernel = filter->sight;
+    struct filter_lanes lanes = filter_lanes_empty(x, y);
+    struct sight_extent rows = {.left = x, .top = y, .right = x, .bottom = y}, columns = {y, x, y, x};
+    worker->map[(size_t)y * (size_t)worker->map_width + (size_t)x] = 0;
+    if (filter_lane_fill(filter, x, y, 0, &lanes)) {
+        struct sight_eye eye = {.blind = lanes.blind[0], .fade = lanes.fade[0], .step = lanes.step[0]};
+        for (int i = 0; i < 3; i++) {
+            eye.a[i] = lanes.a[i][0];
+            eye.direction[i] = lanes.direction[i][0];
+        }
+        const int limit = (int)filter->radius_limit_px, pitch = worker->map_width;
+        for (int step = -1; step <= 1; step += 2) {
+            kernel->march(&fast->rows, x, y, step, limit, &eye, worker->scratch, worker->map, 1, pitch, &rows);
+            kernel->march(&fast->columns, y, x, step, limit, &eye, worker->scratch, worker->map, pitch, 1, &columns);
+        }
+    }
+    struct sight_extent both = {.left = columns.top < rows.left ? columns.top : rows.left,
+                                .top = columns.left < rows.top ? columns.left : rows.top,
+                                .right = columns.bottom > rows.right ? columns.bottom : rows.right,
+                                .bottom = columns.right > rows.bottom ? columns.right : rows.bottom};
+    sight->x = x;
+    sight->y = y;
+    return sight_keep(worker, sight, both);
+}
+
+/* The sight of pixel (x, y), made or kept; NULL: no memory. */
+static const struct sight *sight_of(struct worker *worker, int x, int y)
+{
+    struct sight *oldest = &worker->sights[0];
+    worker->clock++;
+    for (int i = 0; i < worker->sight_count; i++) {
+        struct sight *sight = &worker->sights[i];
+        if (sight->used && sight->x == x && sight->y == y) {
+            sight->used = worker->clock;
+            return sight;
+        }
+        if (sight->used < oldest->used)
+            oldest = sight;
+    }
+    oldest->used = sight_make(worker, oldest, x, y) ? worker->clock : 0;
+    worker->out_of_memory = worker->out_of_memory || !oldest->used;
+    return oldest->used ? oldest : NULL;
+}
+
+static bool sight_add(struct worker *worker, struct block *block, int x, int y)
+{
+    const struct sight *sight = sight_of(worker, x, y);
+    block->sights[block->group.sights++] = sight;
+    return sight != NULL;
+}
+
+/* The four corners of the lattice's square that the block lies in, for the pixels that they are alike to. False, and
+ * nothing added: for some pixel of the block that is less than half of what there should be. */
+static bool corners_add(struct worker *worker, struct block *block, int pitch, double limit, bool at_any_rate,
+                        bool found[LANES])
+{
+    const struct filter *filter = worker->fast->filter;
+    const int left = block->left / pitch * pitch, top = block->top / pitch * pitch;
+    const int xs[2] = {left, left + pitch < filter->taps.width ? left + pitch : filter->taps.width - 1};
+    const int ys[2] = {top, top + pitch < filter->taps.height ? top + pitch : filter->taps.height - 1};
+    double weights[4][LANES] = {{0}}, total[LANES] = {0};
+    bool enough = true;
+    for (int l = 0; l < LANES; l++) {
+        if (!block->used[l])
+            continue;
+        const double right = (double)(block->xs[l] - left) / pitch, down = (double)(block->ys[l] - top) / pitch;
+        for (int c = 0; c < 4; c++) {
+            if (!is_alike(filter, xs[c & 1], ys[c >> 1], block->xs[l], block->ys[l], limit))
+                continue;
+            weights[c][l] = (c & 1 ? right : 1 - right) * (c >> 1 ? down : 1 - down);
+            total[l] += weights[c][l];
+        }
+        enough = enough && total[l] > 0.5;
+    }
+    if (!enough && !at_any_rate)
+        return false;
+    for (int c = 0; c < 4; c++) {
+        bool seen = false;
+        for (int l = 0; l < LANES; l++) {
+            if (!(weights[c][l] > 0.01))
+                continue;
+            block->group.share[block->group.sights][l] = (float)weights[c][l];
+            seen = found[l] = true;
+        }
+        if (seen && !sight_add(worker, block, xs[c & 1], ys[c >> 1]))
+            return true;
+    }
+    return true;
+}
+
+/* How the block's pixels see: by the coarsest lattice that is fine enough; those that no corner is alike to, by one of
+ * their own. The shares of each lane's sights come to 1. */
+static void sights_choose(struct worker *worker, struct block *block, int size)
+{
+    const struct filter *filter = worker->fast->filter;
+    const struct settings *settings = worker->fast->settings;
+    bool found[LANES] = {false}, chosen = false;
+    for (int pitch = LARGEST; pitch >= size && !chosen; pitch /= 2) {
+        const bool last = pitch == size;
+        chosen = corners_add(worker, block, pitch, (double)(last ? settings->akin : settings->alike), last, found);
+    }
+    for (int l = 0; l < LANES && !worker->out_of_memory; l++) {
+        if (!block->used[l] || found[l])
+            continue;
+        for (int m = l; m < LANES; m++)
+            if (block->used[m] && !found[m] &&
+                (m == l || is_alike(filter, block->xs[l], block->ys[l], block->xs[m], block->ys[m],
+                                    (double)settings->akin))) {
+                block->group.share[block->group.sights][m] = 1;
+                found[m] = true;
+            }
+        sight_add(worker, block, block->xs[l], block->ys[l]);
+    }
+    for (int l = 0; l < LANES; l++) {
+        float total = 0;
+        for (int s = 0; s < block->group.sights; s++)
+            total += block->group.share[s][l];
+        for (int s = 0; s < block->group.sights && total > 0; s++)
+            block->group.share[s][l] /= total;
+    }
+}
+
+/* --- nodes --- */
+
+static bool node_add(struct worker *worker, const struct filter_node *node, float column, float row,
+                     const float hidden[SIGHTS_OF_GROUP], bool visible)
+{
+    if (worker->count == worker->capacity) {
+        const int capacity = worker->capacity ? 2 * worker->capacity : 4096;
+        struct filter_node *nodes = realloc(worker->nodes, (size_t)capacity * sizeof *nodes);
+        worker->nodes = nodes ? nodes : worker->nodes;
+        float *shares = realloc(worker->hidden, (size_t)capacity * SIGHTS_OF_GROUP * sizeof *shares);
+        worker->hidden = shares ? shares : worker->hidden;
+        if (!nodes || !shares) {
+            worker->out_of_memory = true;
+            return false;
+        }
+        worker->capacity = capacity;
+    }
+    memcpy(worker->hidden + (size_t)worker->count * SIGHTS_OF_GROUP, hidden, SIGHTS_OF_GROUP * sizeof *hidden);
+    struct filter_node *added = &worker->nodes[worker->count++];
+    *added = *node;
+    added->column = column;
+    added->row = row;
+    added->visible = visible;
+    return true;
+}
+
+/* About what a layer weighs in the middle lane's lobe, or somewhat more; 0: it is out of every lane's lobe. */
+static double layer_weight(const struct block *block, const struct filter_node *layer)
+{
+    const struct filter_lanes *lanes = &block->group.lanes;
+    const int l = block->middle;
+    const double v[3] = {(double)(layer->x - layer->w * lanes->a[0][l]), (double)(layer->y - layer->w * lanes->a[1][l]),
+                         (double)(layer->z - layer->w * lanes->a[2][l])};
+    double c = 0, square = 0;
+    for (int i = 0; i < 3; i++) {
+        c += v[i] * (double)lanes->direction[i][l];
+        square += v[i] * v[i];
+    }
+    if (!(c > 0))
+        return 0;
+    const double tangent = fmax(sqrt(fmax(square / (c * c) - 1, 0)) - 2 * sqrt((double)layer->spread), 0);
+    const double t = tangent * tangent, margin = 1.3;
+    if (t > (double)lanes->reach[l] * margin)
+        return 0;
+    return exp2(-(double)lanes->slope[l] * log2(1 + t)) * (double)layer->solid /
+           fmax(square, 1 / FILTER_MOST_ENLARGED);
+}
+
+/* How a cell of level k is seen: the hidden share for each sight, how far its least and largest are apart, and whether
+ * any of it is seen at all. */
+struct look {
+    float hidden[SIGHTS_OF_GROUP];
+    float range;
+    bool visible;
+};
+
+static struct look look_at(const struct block *block, int k, int x, int y)
+{
+    struct look look = {.visible = block->everything};
+    const int left = x << k, top = y << k, size = 1 << k;
+    int range = 0, least = SIGHT_HIDDEN;
+    for (int s = 0; s < block->group.sights; s++) {
+        const struct sight *sight = block->sights[s];
+        int mean = SIGHT_HIDDEN, low = SIGHT_HIDDEN, high = SIGHT_HIDDEN;
+        const bool outside = left >= sight->left + sight->width || top >= sight->top + sight->height ||
+                             left + size <= sight->left || top + size <= sight->top;
+        if (!outside && k < SIGHT_LEVELS) {
+            const size_t row = (size_t)(y - (sight->top >> k));
+            const size_t at = row * (size_t)(sight->width >> k) + (size_t)(x - (sight->left >> k));
+            mean = sight->levels[k][0][at];
+            low = sight->levels[k][1][at];
+            high = sight->levels[k][2][at];
+        } else if (!outside) {
+            low = 0;
+        }
+        look.hidden[s] = (float)mean / SIGHT_HIDDEN;
+        least = low < least ? low : least;
+        range = high - low > range ? high - low : range;
+    }
+    look.range = (float)range / SIGHT_HIDDEN;
+    look.visible = look.visible || least < SIGHT_HIDDEN;
+    return look;
+}
+
+/* A cell's hidden share may always be off by so much. */
+static const float range_least = 0.05f;
+
+/* Whether the cell, small enough for its distance, is to be opened: its directions differ too much, or part of it is
+ * hidden, and that counts. */
+static bool is_mixed(const struct fast *fast, const struct block *block, const struct filter_cell *cell,
+                     struct look *look)
+{
+    const bool spread = fmaxf(cell->layer[0].spread, cell->layer[1].spread) > block->spread_limit;
+    const bool parts = look->visible && look->range > range_least;
+    if (!spread && !parts)
+        return false;
+    const double weight = (layer_weight(block, &cell->layer[0]) + layer_weight(block, &cell->layer[1])) / block->lobe;
+    look->visible = look->visible && weight > 0;
+    return weight > 0 && (spread || weight * (double)look->range > (double)fast->settings->hidden);
+}
+
+/* Adds the nodes of a cell of level k, or of its parts. */
+static void cell_walk(struct worker *worker, const struct block *block, int k, int x, int y)
+{
+    const struct fast *fast = worker->fast;
+    const struct filter_cells *cells = &fast->cells;
+    const int size = 1 << k, left = x << k, top = y << k;
+    const int right = left + size - 1, bottom = top + size - 1;
+    const int off_x = left > block->right ? left - block->right : block->left > right ? block->left - right : 0;
+    const int off_y = top > block->bottom ? top - block->bottom : block->top > bottom ? block->top - bottom : 0;
+    const int away = off_x > off_y ? off_x : off_y;
+    const struct filter_cell *cell = k > 0 ? &cells->level[k][(size_t)y * (size_t)cells->width[k] + (size_t)x] : NULL;
+    const float column = (float)left + (float)(size - 1) / 2, row = (float)top + (float)(size - 1) / 2;
+    struct filter_node node;
+    const bool empty = cell ? cell->layer[0].solid == 0 && cell->layer[1].solid == 0
+                            : !filter_cell_of_pixel(fast->filter, x, y, &node);
+    if (empty || worker->out_of_memory)
+        return;
+    struct look look = look_at(block, k, x, y);
+    if (!look.visible && away > block->reach_px)
+        return;
+    if (!cell) {
+        node_add(worker, &node, column, row, look.hidden, look.visible);
+        return;
+    }
+    const bool large = size > block->finest && (float)size > (float)away * fast->settings->size;
+    if (large || is_mixed(fast, block, cell, &look)) {
+        for (int v = 2 * y; v < 2 * y + 2 && v < cells->height[k - 1]; v++)
+            for (int u = 2 * x; u < 2 * x + 2 && u < cells->width[k - 1]; u++)
+                cell_walk(worker, block, k - 1, u, v);
+        return;
+    }
+    for (int i = 0; i < 2; i++)
+        if (cell->layer[i].solid > 0)
+            node_add(worker, &cell->layer[i], column, row, look.hidden, look.visible);
+}
+
+/* --- blocks --- */
+
+/* The block's pixels, `apart` pixels from each other. False: there is nothing to sum. */
+static bool block_fill(struct fast *fast, int x, int y, int apart, struct block *block)
+{
+    struct filter *filter = fast->filter;
+    struct filter_lanes *lanes = &block->group.lanes;
+    const unsigned without = filter->options->without;
+    double phong_most_used = 0;
+    bool any = false;
+    *block = (struct block){.left = x,
+                            .top = y,
+                            .right = x + (SIDE - 1) * apart,
+                            .bottom = y + (SIDE - 1) * apart,
+                            .finest = apart > 2 ? apart / 2 : 1,
+                            .everything = without & FILTER_WITHOUT_VISIBILITY};
+    *lanes = filter_lanes_empty(x, y);
+    for (int l = 0; l < LANES; l++) {
+        const int u = block->xs[l] = x + l % SIDE * apart, v = block->ys[l] = y + l / SIDE * apart;
+        block->group.column[l] = (float)u;
+        block->group.row[l] = (float)v;
+        if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v))
+            continue;
+        block->used[l] = filter_lane_fill(filter, u, v, l, lanes);
+        if (!block->used[l]) {
+            filter_write_mirror(filter, u, v);
+            fast->known[pixel_of(fast, u, v)] = 1;
+            continue;
+        }
+        if (!any || l == LANES / 2)
+            block->middle = l;
+        any = true;
+        phong_most_used = fmax(phong_most_used, filter_exponent_at(filter, u, v));
+        if (!(without & FILTER_WITHOUT_POOL))
+            block->reach_px = (int)fmax(block->reach_px, ceil((double)image_row(&filter->radius, 0, v)[u]));
+    }
+    block->lobe = lobe_integral(phong_most_used, filter->floor);
+    block->spread_limit = fast->settings->spread * fast->settings->spread / (float)fmax(phong_most_used, 1);
+    return any;
+}
+
+/* Whether things shift by little over a block of level k, the nearest of them at 1/r' = near. */
+static bool is_smooth(const struct fast *fast, const struct rate *rate, int k, float near)
+{
+    const float size = (float)(SIDE << k);
+    return rate->phong_low == rate->phong_high &&
+           (rate->turn + rate->move * near) * size * sqrtf(rate->phong_high) <= fast->settings->smooth;
+}
+
+/* Computes the 16 pixels of a block of level k. False: what it sees is too near for so large a block. */
+static bool block_compute(struct worker *worker, const struct rate *rate, int x, int y, int k)
+{
+    struct fast *fast = worker->fast;
+    struct filter *filter = fast->filter;
+    struct block block;
+    struct filter_moments seen;
+    struct filter_sums pool = {0};
+    struct filter_help help[LANES] = {{0}};
+    bool any_help = false;
+    float near = 0;
+    if (!block_fill(fast, x, y, 1 << k, &block))
+        return true;
+    if (!block.everything)
+        sights_choose(worker, &block, SIDE << k);
+    worker->count = 0;
+    const int top = CELL_LEVELS - 1;
+    for (int v = 0; v < fast->cells.height[top] && !worker->out_of_memory; v++)
+        for (int u = 0; u < fast->cells.width[top]; u++)
+            cell_walk(worker, &block, top, u, v);
+    if (worker->out_of_memory)
+        return true;
+    filter->sight->see(worker->nodes, worker->hidden, worker->count, &block.group, &seen);
+    for (int l = 0; l < LANES; l++)
+        near = fmaxf(near, block.group.nearest[l]);
+    if (k > 0 && !is_smooth(fast, rate, k, near))
+        return false;
+    for (int l = 0; l < LANES; l++) {
+        if (!block.used[l])
+            continue;
+        help[l] = filter_help_needed(filter, block.xs[l], block.ys[l], seen.value[FILTER_MOMENT_1][l]);
+        if (help[l].share == 0 && help[l].missing == 0)
+            continue;
+        const double radius = (double)image_row(&filter->radius, 0, block.ys[l])[block.xs[l]];
+        block.group.lanes.limit[l] = (float)(radius * radius);
+        any_help = true;
+    }
+    if (any_help)
+        filter->sight->pool(worker->nodes, worker->count, &block.group, &pool);
+    for (int l = 0; l < LANES; l++) {
+        if (!block.used[l])
+            continue;
+        filter_write_best(filter, block.xs[l], block.ys[l], l, &seen, &pool, help[l]);
+        fast->known[pixel_of(fast, block.xs[l], block.ys[l])] = 1;
+    }
+    return true;
+}
+
+/* Whether so few pixels lie in the lobes of 16 x 16 pixels, even of far things, that summing over all of them is
+ * faster; or so narrow lobes are there that clusters would lose them. */
+static bool is_narrow(const struct fast *fast, const struct rate *rate, int x, int y)
+{
+    const struct filter *filter = fast->filter;
+    struct filter_lanes lanes = filter_lanes_empty(x, y);
+    float most = 0;
+    for (int l = 0; l < LANES; l++) {
+        const int u = x + l % SIDE * SIDE, v = y + l / SIDE * SIDE;
+        if (filter_is_inside(filter, u, v) && filter_is_glossy(filter, u, v) &&
+            filter_lane_fill(filter, u, v, l, &lanes))
+            most = fmaxf(most, lanes.reach[l] / lanes.step[l]);
+    }
+    return rate->phong_high > phong_most || (most > 0 && most < few_pixels);
+}
+
+/* Every tap of 16 x 16 pixels' lobes. */
+static void block_exact(struct worker *worker, int x, int y)
+{
+    struct fast *fast = worker->fast;
+    for (int v = y; v < y + LANES && v < fast->filter->taps.height; v++) {
+        filter_best_lanes(fast->filter, x, v, worker->exact);
+        for (int u = x; u < x + LANES && u < fast->filter->taps.width; u++)
+            fast->known[pixel_of(fast, u, v)] = filter_is_glossy(fast->filter, u, v);
+    }
+}
+
+static void block_do(struct worker *worker, int x, int y, int k)
+{
+    struct fast *fast = worker->fast;
+    const struct filter_taps *taps = &fast->filter->taps;
+    const int size = SIDE << k;
+    if (x >= taps->width || y >= taps->height || worker->out_of_memory || interrupt_signal() ||
+        !filter_is_needed(fast->filter, x, y, size, size))
+        return;
+    const struct rate *rate = &fast->rates[k][(size_t)(y / size) * (size_t)fast->across[k] + (size_t)(x / size)];
+    if (rate->phong_high == 0)
+        return;
+    if (size == LANES && is_narrow(fast, rate, x, y)) {
+        block_exact(worker, x, y);
+        return;
+    }
+    const bool fine = rate->phong_high <= phong_most && (k == 0 || is_smooth(fast, rate, k, 0));
+    if ((fine && block_compute(worker, rate, x, y, k)) || k == 0) {
+        for (int v = y; v < y + size && v < taps->height; v++)
+            memset(fast->apart + pixel_of(fast, x, v), k, (size_t)(x + size < taps->width ? size : taps->width - x));
+        return;
+    }
+    for (int v = y; v < y + size; v += size / 2)
+        for (int u = x; u < x + size; u += size / 2)
+            block_do(worker, u, v, k - 1);
+}
+
+static void rows_do(void *context, int first, int end)
+{
+    struct fast *fast = context;
+    const int width = fast->filter->taps.width, height = fast->filter->taps.height;
+    const int map_width = (width / SIGHT_CELL + 1) * SIGHT_CELL, map_height = (height / SIGHT_CELL + 1) * SIGHT_CELL;
+    const size_t map = (size_t)map_width * (size_t)map_height;
+    const int kept = (int)(sights_bytes / (2 * (double)map));
+    struct worker worker = {.fast = fast, .map_width = map_width};
+    worker.sight_count = kept > SIGHTS ? SIGHTS : kept < SIGHTS_OF_GROUP ? SIGHTS_OF_GROUP : kept;
+    worker.map = malloc(map);
+    worker.scratch = malloc(SIGHT_SCRATCH(width > height ? width : height) * sizeof *worker.scratch);
+    worker.exact = aligned_alloc(64, FILTER_SEE_SCRATCH(width));
+    worker.out_of_memory = !worker.map || !worker.scratch || !worker.exact;
+    if (worker.map)
+        memset(worker.map, SIGHT_HIDDEN, map);
+    for (int row = first; row < end; row++)
+        for (int x = 0; x < width; x += LARGEST)
+            block_do(&worker, x, row * LARGEST, BLOCK_LEVELS - 1);
+    for (int i = 0; i < SIGHTS; i++)
+        free(worker.sights[i].data);
+    free(worker.hidden);
+    free(worker.nodes);
+    free(worker.exact);
+    free(worker.scratch);
+    free(worker.map);
+    if (worker.out_of_memory)
+        atomic_store(&fast->out_of_memory, true);
+}
+
+/* --- between the computed pixels --- */
+
+static bool is_known(const struct fast *fast, int x, int y)
+{
+    return filter_is_inside(fast->filter, x, y) && fast->known[pixel_of(fast, x, y)];
+}
+
+/* From the pixels beside it at dx, dy: by a cubic of four where they are alike, else by the mean of two. */
+static void interpolate(struct fast *fast, int x, int y, int dx, int dy)
+{
+    static const float cubic[4] = {-1 / 16.f, 9 / 16.f, 9 / 16.f, -1 / 16.f}, line[4] = {0, 0.5f, 0.5f, 0};
+    const struct filter *filter = fast->filter;
+    const bool far = is_known(fast, x - 3 * dx, y - 3 * dy) && is_known(fast, x + 3 * dx, y + 3 * dy) &&
+                     is_alike(filter, x, y, x - 3 * dx, y - 3 * dy, 1) &&
+                     is_alike(filter, x, y, x + 3 * dx, y + 3 * dy, 1);
+    const float *weights = far ? cubic : line;
+    for (int i = 0; i < 4; i++) {
+        const struct image *image = i < 3 ? filter->glossy : &filter->confidence;
+        float value = 0;
+        for (int n = far ? 0 : 1; n < (far ? 4 : 3); n++)
+            value += weights[n] * image_row(image, i % 3, y + (2 * n - 3) * dy)[x + (2 * n - 3) * dx];
+        image_row(image, i % 3, y)[x] = value;
+    }
+    fast->known[pixel_of(fast, x, y)] = 1;
+}
+
+/* All pixels whose block's are 2^k apart or more get results `2^k / 2` apart: first between those of a row, then
+ * between rows. */
+static void level_fill(struct fast *fast, int k)
+{
+    const int apart = 1 << k, half = apart / 2;
+    for (int pass = 0; pass < 2; pass++)
+        for (int y = pass == 0 ? 0 : half; y < fast->filter->taps.height; y += apart)
+            for (int x = pass == 0 ? half : 0; x < fast->filter->taps.width; x += pass == 0 ? apart : half)
+                if (fast->apart[pixel_of(fast, x, y)] >= k && !fast->known[pixel_of(fast, x, y)])
+                    interpolate(fast, x, y, pass == 0 ? half : 0, pass == 0 ? 0 : half);
+}
+
+enum result filter_fast(struct filter *filter, struct error *err)
+{
+    const size_t pixels = (size_t)filter->taps.width * (size_t)filter->taps.height;
+    struct fast fast = {.filter = filter, .settings = &settings_of[filter->options->quality]};
+    fast.known = calloc(pixels, 1);
+    fast.apart = calloc(pixels, 1);
+    enum result result = fast.known && fast.apart ? RESULT_OK : error_memory(err, 2 * (double)pixels);
+    if (result == RESULT_OK)
+        result = filter_cells_build(filter, &fast.cells, err);
+    if (result == RESULT_OK)
+        result = columns_build(&fast, err);
+    if (result == RESULT_OK)
+        result = rates_build(&fast, err);
+    if (result == RESULT_OK)
+        result = bands_run(fast.down[BLOCK_LEVELS - 1], 1, filter->options->threads, rows_do, &fast, err);
+    if (result == RESULT_OK && atomic_load(&fast.out_of_memory))
+        result = error_memory(err, sights_bytes);
+    for (int k = BLOCK_LEVELS - 1; k > 0 && result == RESULT_OK; k--)
+        level_fill(&fast, k);
+    for (int k = 0; k < BLOCK_LEVELS; k++)
+        free(fast.rates[k]);
+    filter_cells_free(&fast.cells);
+    free(fast.transposed);
+    free(fast.apart);
+    free(fast.known);
+    return result;
+}
