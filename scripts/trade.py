@@ -21,8 +21,8 @@ WIDTH, HEIGHT = 240, 180
 SIZE = [f'+W{WIDTH}', f'+H{HEIGHT}']
 ALL, TRADE = (30, 100, 300, 1000, 10000), (100, 1000)
 RAYS, BRUTE, NORMALS = (1, 4, 16), (4, 16, 64), (4, 16, 64)
-SETTINGS = ('--margin 10%', '--subsample 2', '--subsample 4', '--max-radius 64', '--max-radius 32', '--max-radius 16',
-            '--energy 0.99', '--mode paper --weights table', '--mode paper --weights gauss', '--mode paper --window square',
+SETTINGS = ('--quality exact', '--quality high', '--quality draft', '--margin 10%', '--subsample 2', '--subsample 4',
+            '--max-radius 64', '--max-radius 32', '--max-radius 16', '--energy 0.99', '--mode paper --weights table', '--mode paper --weights gauss', '--mode paper --window square',
             '--mode paper --radius-step 4')
 WHOLE = 256  # rays of the lobe at every pixel of the image that FLIP compares with, at p = TRADE[0]
 EXAMPLES = '/usr/share/doc/povray/examples/advanced/'
