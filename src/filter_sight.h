@@ -10,13 +10,13 @@
 #include <stdint.h>
 
 enum {
-    /* Sights that the pixels of one group may use: 4 corners and one for each pixel. */
-    SIGHTS_OF_GROUP = 4 + FILTER_LANES,
-    /* Floats of scratch of sight_march for pictures of `longest` pixels on their longer side. */
+    SIGHTS_OF_GROUP = 4 + FILTER_LANES, /* that its pixels may use: 4 corners and one for each pixel */
+    SIGHT_HIDDEN = 255,                 /* all of it */
     SIGHT_MARGIN = 64
 };
+
+/* Floats of scratch of sight_march for pictures of `longest` pixels on their longer side. */
 #define SIGHT_SCRATCH(longest) (2 * ((size_t)(longest) + 3 * SIGHT_MARGIN))
-#define SIGHT_HIDDEN 255
 
 /* The taps by rows of the picture, or by columns (width and height exchanged): planes as in struct filter_taps. */
 struct sight_planes {
