@@ -13,8 +13,8 @@ for isa in sse2 avx2 avx512; do
     esac
     objdump -d --no-show-raw-insn "$objects/filter_kernel_$isa.o" "$objects/filter_sight_$isa.o" |
         awk -v isa="$isa" -v register="$register" '
-            /^[0-9a-f]+ <.*>:$/ { path = substr($2, 2, length($2) - 3); if (path ~ /^((add|see)_(narrow|wide|power|table|gauss)|^(march|see|pool)$)/) paths[path] = 0 }
-            path !~ /^((add|see)_(narrow|wide|power|table|gauss)|^(march|see|pool)$)/ { next }
+            /^[0-9a-f]+ <.*>:$/ { path = substr($2, 2, length($2) - 3); if (path ~ /^((add|see)_(narrow|wide|power|table|gauss)|(march|see|pool)$)/) paths[path] = 0 }
+            path !~ /^((add|see)_(narrow|wide|power|table|gauss)|(march|see|pool)$)/ { next }
             $2 ~ /^v?divps$/ && index($0, "%" register) { paths[path]++ }
             $2 ~ /^v?divss$/ { scalar[path]++ }
             END {

@@ -71,7 +71,6 @@ struct fast {
     struct rate *rates[BLOCK_LEVELS];
     int across[BLOCK_LEVELS], down[BLOCK_LEVELS]; /* blocks */
     unsigned char *known, *apart; /* of each pixel: its result is there; log2 of how far apart its block's pixels are */
-    atomic_bool out_of_memory;
 };
 
 /* What a pixel sees, in a rectangle of whole cells outside which all is hidden. */
@@ -129,15 +128,34 @@ static size_t pixel_of(const struct fast *fast, int x, int y)
 
 /* --- what is built once --- */
 
+/* What changes from one glossy pixel to another: the direction, radians, and a; and the larger 1/r of the two. */
+struct shift {
+    double turn, move, near;
+};
+
+static struct shift shift_between(const struct filter *filter, int x, int y, int u, int v)
+{
+    float a[2][3];
+    double direction[2][3], turn = 0, move = 0;
+    filter_position_at(filter, x, y, a[0]);
+    filter_position_at(filter, u, v, a[1]);
+    const double here = filter_direction_to(filter, a[0], x, y, direction[0]);
+    const double there = filter_direction_to(filter, a[1], u, v, direction[1]);
+    for (int i = 0; i < 3; i++) {
+        turn += (direction[1][i] - direction[0][i]) * (direction[1][i] - direction[0][i]);
+        move += (double)(a[1][i] - a[0][i]) * (double)(a[1][i] - a[0][i]);
+    }
+    return (struct shift){.turn = sqrt(turn),
+                          .move = sqrt(move),
+                          .near = fmax((double)*filter_tap_at(filter, FILTER_PLANE_W, x, y) / here,
+                                       (double)*filter_tap_at(filter, FILTER_PLANE_W, u, v) / there)};
+}
+
 static struct rate rate_of_pixel(const struct filter *filter, int x, int y)
 {
     struct rate rate = {0};
-    float a[3];
-    double direction[3];
     if (!filter_is_glossy(filter, x, y))
         return rate;
-    filter_position_at(filter, x, y, a);
-    filter_direction_to(filter, a, x, y, direction);
     rate.phong_low = rate.phong_high = (float)filter_exponent_at(filter, x, y);
     for (int n = 0; n < 2; n++) {
         const int u = x + (n == 0), v = y + (n == 1);
@@ -145,16 +163,9 @@ static struct rate rate_of_pixel(const struct filter *filter, int x, int y)
             rate.phong_low = 0;
             continue;
         }
-        float position[3];
-        double other[3], turn = 0, move = 0;
-        filter_position_at(filter, u, v, position);
-        filter_direction_to(filter, position, u, v, other);
-        for (int i = 0; i < 3; i++) {
-            turn += (other[i] - direction[i]) * (other[i] - direction[i]);
-            move += (double)(position[i] - a[i]) * (double)(position[i] - a[i]);
-        }
-        rate.turn = fmaxf(rate.turn, (float)sqrt(turn));
-        rate.move = fmaxf(rate.move, (float)sqrt(move));
+        const struct shift shift = shift_between(filter, x, y, u, v);
+        rate.turn = fmaxf(rate.turn, (float)shift.turn);
+        rate.move = fmaxf(rate.move, (float)shift.move);
     }
     return rate;
 }
@@ -251,19 +262,8 @@ static bool is_alike(const struct filter *filter, int x, int y, int u, int v, do
     if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v) ||
         filter_exponent_at(filter, x, y) != filter_exponent_at(filter, u, v))
         return false;
-    float a[2][3];
-    double direction[2][3], turn = 0, move = 0;
-    filter_position_at(filter, x, y, a[0]);
-    filter_position_at(filter, u, v, a[1]);
-    const double here = filter_direction_to(filter, a[0], x, y, direction[0]);
-    const double there = filter_direction_to(filter, a[1], u, v, direction[1]);
-    for (int i = 0; i < 3; i++) {
-        turn += (direction[1][i] - direction[0][i]) * (direction[1][i] - direction[0][i]);
-        move += (double)(a[1][i] - a[0][i]) * (double)(a[1][i] - a[0][i]);
-    }
-    const double near = fmax((double)*filter_tap_at(filter, FILTER_PLANE_W, x, y) / here,
-                             (double)*filter_tap_at(filter, FILTER_PLANE_W, u, v) / there);
-    return sqrt(turn) + sqrt(move) * near < limit / sqrt(filter_exponent_at(filter, x, y) + 1);
+    const struct shift shift = shift_between(filter, x, y, u, v);
+    return shift.turn + shift.move * shift.near < limit / sqrt(filter_exponent_at(filter, x, y) + 1);
 }
 
 /* Takes the marched map over, and makes its coarser levels. The map is all hidden again. */
@@ -426,7 +426,7 @@ static void sights_choose(struct worker *worker, struct block *block, int size)
 
 /* --- nodes --- */
 
-static bool node_add(struct worker *worker, const struct filter_node *node, float column, float row,
+static void node_add(struct worker *worker, const struct filter_node *node, float column, float row,
                      const float hidden[SIGHTS_OF_GROUP], bool visible)
 {
     if (worker->count == worker->capacity) {
@@ -437,7 +437,7 @@ static bool node_add(struct worker *worker, const struct filter_node *node, floa
         worker->hidden = shares ? shares : worker->hidden;
         if (!nodes || !shares) {
             worker->out_of_memory = true;
-            return false;
+            return;
         }
         worker->capacity = capacity;
     }
@@ -447,7 +447,6 @@ static bool node_add(struct worker *worker, const struct filter_node *node, floa
     added->column = column;
     added->row = row;
     added->visible = visible;
-    return true;
 }
 
 /* About what a layer weighs in the middle lane's lobe, or somewhat more; 0: it is out of every lane's lobe. */
@@ -737,7 +736,7 @@ static void rows_do(void *context, int first, int end)
     free(worker.scratch);
     free(worker.map);
     if (worker.out_of_memory)
-        atomic_store(&fast->out_of_memory, true);
+        atomic_store(&fast->filter->out_of_memory, true);
 }
 
 /* --- between the computed pixels --- */
@@ -793,7 +792,7 @@ enum result filter_fast(struct filter *filter, struct error *err)
         result = rates_build(&fast, err);
     if (result == RESULT_OK)
         result = bands_run(fast.down[BLOCK_LEVELS - 1], 1, filter->options->threads, rows_do, &fast, err);
-    if (result == RESULT_OK && atomic_load(&fast.out_of_memory))
+    if (result == RESULT_OK && atomic_load(&filter->out_of_memory))
         result = error_memory(err, sights_bytes);
     for (int k = BLOCK_LEVELS - 1; k > 0 && result == RESULT_OK; k--)
         level_fill(&fast, k);

@@ -8,10 +8,6 @@
 
 #include <stdatomic.h>
 
-/* How many times larger than from its own a the solid angle of a pixel may be from another: from so near it is no
- * longer one point. */
-#define FILTER_MOST_ENLARGED 10.0
-
 /* How far beyond the picture, which may be a part of the planes, results are looked at. */
 enum { FILTER_EDGE_REACH_PX = 3 };
 

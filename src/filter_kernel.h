@@ -29,6 +29,10 @@ enum filter_plane {
     FILTER_PLANES
 };
 
+/* How many times larger than from its own a the solid angle of a pixel may be from another: from so near it is no
+ * longer one point. */
+#define FILTER_MOST_ENLARGED 10.0
+
 /* What kinds of usable endpoints a block of 16 columns holds. */
 enum { FILTER_KIND_POSITION = 1, FILTER_KIND_DIRECTION = 2 };
 

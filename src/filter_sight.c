@@ -13,7 +13,7 @@
 enum { LANES = FILTER_LANES };
 
 /* See FILTER_PLANE_NEAREST: in units of r'^2. */
-static const float nearest_square = 0.1f;
+static const float nearest_square = (float)(1 / FILTER_MOST_ENLARGED);
 
 /* Weight and share from which on a thing counts as seen nearby. */
 #define NEAR_WEIGHT 0.02f
