@@ -43,6 +43,7 @@ LIB_OBJECTS := $(LIB_SOURCES:src/%.c=$(BUILD)/obj/%.o) $(if $(wildcard src/filte
 LIBRARY := $(BUILD)/libgloss.a
 # What is installed of it has one function, and no other name that could meet a user's.
 PUBLIC_LIBRARY := $(BUILD)/lib/libgloss.a
+PUBLIC_NAMES := gloss_filter gloss_open gloss_apply gloss_close
 # Found by the programs from the folder that they are in, here and installed.
 INCLUDE := $(BUILD)/share/povgloss/include/povgloss.inc
 
@@ -108,7 +109,7 @@ $(PUBLIC_LIBRARY): $(LIBRARY)
 	@mkdir -p $(@D)
 	rm -f $@
 	$(LD) -r -u gloss_filter -o $(BUILD)/obj/gloss_public.o $<
-	objcopy --keep-global-symbol=gloss_filter $(BUILD)/obj/gloss_public.o
+	objcopy $(PUBLIC_NAMES:%=--keep-global-symbol=%) $(BUILD)/obj/gloss_public.o
 	$(AR) rcs $@ $(BUILD)/obj/gloss_public.o
 
 $(INCLUDE): povscenes/povgloss.inc
