@@ -246,7 +246,7 @@ run-fuzzers: $(FUZZERS)
 	done
 
 .PHONY: bench
-bench: $(PROGRAMS) $(PRELOAD) $(BUILD)/tests/tools/bench_filter ## times of the filter, and errors of its variants
+bench: $(PROGRAMS) $(PRELOAD) $(TOOLS) ## times of the filter, and errors of its variants
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools OUT=$(BUILD)/bench scripts/bench.sh
 
 .PHONY: corpus
