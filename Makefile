@@ -249,6 +249,10 @@ run-fuzzers: $(FUZZERS)
 bench: $(PROGRAMS) $(PRELOAD) $(TOOLS) ## times of the filter, and errors of its variants
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools OUT=$(BUILD)/bench scripts/bench.sh
 
+.PHONY: growth
+growth: $(PROGRAMS) $(INCLUDE) ## time and memory against pixels, exponent and threads (an hour): docs/growth.png
+	BIN=$(BUILD)/bin scripts/growth.sh
+
 .PHONY: corpus
 corpus: $(PROGRAMS) ## run every scene of povray-examples as it is; the table is docs/corpus.md
 	BIN=$(BUILD)/bin OUT=$(BUILD)/corpus REPORT=docs/corpus.md scripts/corpus.sh
