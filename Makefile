@@ -41,7 +41,7 @@ PRELOAD := $(BUILD)/lib/povgloss/reads.so
 LIB_SOURCES := $(filter-out src/main_%.c $(KERNELS:%=src/%.c) src/preload_reads.c,$(wildcard src/*.c))
 LIB_OBJECTS := $(LIB_SOURCES:src/%.c=$(BUILD)/obj/%.o) $(if $(wildcard src/filter_kernel.c),$(KERNEL_OBJECTS))
 LIBRARY := $(BUILD)/libgloss.a
-# What is installed of it has one function, and no other name that could meet a user's.
+# What is installed of it has the functions of gloss.h, and no other name that could meet a user's.
 PUBLIC_LIBRARY := $(BUILD)/lib/libgloss.a
 PUBLIC_NAMES := gloss_filter gloss_open gloss_apply gloss_close
 # Found by the programs from the folder that they are in, here and installed.
