@@ -38,18 +38,16 @@ static const float phong_most = 1e5f;
 /* Of tan^2(theta) where the lobe ends, over the square of the angle from a pixel to the next. */
 static const float few_pixels = 300;
 
-/* Units: of the lobe's width, 1/sqrt(p) radians. */
+/* Units: of the lobe's width, 1/sqrt(p) radians, at most 1. */
 struct settings {
-    float smooth; /* things shift by no more over a block, */
+    float smooth;   /* things shift by no more over a block, */
     float unsteady; /* but for this share of what is seen (no unit) */
-    float alike;  /* and over a lattice of sights */
-    float akin;   /* the same where no lattice is so fine */
-    float spread; /* of the directions of a cell that is used whole */
-    float size;   /* of such a cell, of its distance in pixels (no unit) */
-    float hidden; /* what the hidden share of such a cell may be off, of the whole lobe's weight (no unit) */
+    float alike;    /* nor over a lattice of sights */
+    float akin;     /* the same where no lattice is so fine */
+    float spread;   /* of the directions of a cell that is used whole */
+    float size;     /* of such a cell, of its distance in pixels (no unit) */
+    float hidden;   /* what the hidden share of such a cell may be off, of the whole lobe's weight (no unit) */
 };
-
-
 
 static const struct settings settings_of[] = {
     [FILTER_QUALITY_DRAFT] = {8, 0.05f, 0.6f, 1, 0.5f, 1 / 5.f, 4e-3f},
@@ -57,20 +55,25 @@ static const struct settings settings_of[] = {
     [FILTER_QUALITY_HIGH] = {1.5f, 0.005f, 0.15f, 0.5f, 0.3f, 1 / 12.f, 5e-4f},
 };
 
+/* How far the direction may turn over a block, of how far things may shift: a turn shifts them all. */
+static const float turn_most = 0.75f;
+
 /* The largest of what changes from a pixel to the next, within a block. */
 struct rate {
     float turn;                   /* of the direction, radians */
     float move;                   /* of a */
-    float phong_low, phong_high;  /* low is 0 where not all is glossy; high is 0 where nothing is */
+    float phong_low, phong_high;  /* of the passes, 1 where those have none; low is -1 where not all is glossy, high
+                                     where nothing is */
 };
 
 struct fast {
     struct filter *filter;
-    const struct settings *settings;
     struct filter_cells cells;
     struct filter_visibility visibility;
     struct rate *rates[BLOCK_LEVELS];
     int across[BLOCK_LEVELS], down[BLOCK_LEVELS]; /* blocks */
+    /* Of one call: */
+    const struct settings *settings;
     unsigned char *known, *apart; /* of each pixel: its result is there; log2 of how far apart its block's pixels are */
 };
 
@@ -143,14 +146,15 @@ static struct shift shift_between(const struct filter *filter, int x, int y, int
 
 static struct rate rate_of_pixel(const struct filter *filter, int x, int y)
 {
-    struct rate rate = {0};
+    const struct image *phong = &filter->gbuffer->phong;
+    struct rate rate = {.phong_low = -1, .phong_high = -1};
     if (!filter_is_glossy(filter, x, y))
         return rate;
-    rate.phong_low = rate.phong_high = (float)filter_exponent_at(filter, x, y);
+    rate.phong_low = rate.phong_high = phong->pixels ? image_row(phong, 0, y)[x] : 1;
     for (int n = 0; n < 2; n++) {
         const int u = x + (n == 0), v = y + (n == 1);
         if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v)) {
-            rate.phong_low = 0;
+            rate.phong_low = -1;
             continue;
         }
         const struct shift shift = shift_between(filter, x, y, u, v);
@@ -176,11 +180,11 @@ static void rates_fill(struct fast *fast, int k)
     const int height = k == 0 ? fast->filter->taps.height : fast->down[k - 1];
     for (int y = 0; y < fast->down[k]; y++)
         for (int x = 0; x < fast->across[k]; x++) {
-            struct rate rate = {.phong_low = INFINITY};
+            struct rate rate = {.phong_low = INFINITY, .phong_high = -1};
             for (int v = y * factor; v < (y + 1) * factor; v++)
                 for (int u = x * factor; u < (x + 1) * factor; u++) {
                     if (u >= width || v >= height)
-                        rate.phong_low = 0;
+                        rate.phong_low = -1;
                     else if (k == 0)
                         rate_add(&rate, rate_of_pixel(fast->filter, u, v));
                     else
@@ -205,12 +209,24 @@ static enum result rates_build(struct fast *fast, struct error *err)
     return RESULT_OK;
 }
 
+/* The rate of a block of level k, with the exponents of the call. */
+static struct rate rate_of_block(const struct fast *fast, int x, int y, int k)
+{
+    const struct filter_options *options = fast->filter->options;
+    struct rate rate = fast->rates[k][(size_t)y * (size_t)fast->across[k] + (size_t)x];
+    if (options->phong_override || !fast->filter->gbuffer->phong.pixels) {
+        rate.phong_low = rate.phong_low < 0 ? -1 : options->phong;
+        rate.phong_high = rate.phong_high < 0 ? -1 : options->phong;
+    }
+    return rate;
+}
+
 /* --- sights --- */
 
 /* Whether the things that both pixels see shift by less than `limit` of the lobe's width from one to the other. */
 static bool is_alike(const struct filter *filter, int x, int y, int u, int v, double limit)
 {
-    if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v) ||
+    if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, x, y) || !filter_is_glossy(filter, u, v) ||
         filter_exponent_at(filter, x, y) != filter_exponent_at(filter, u, v))
         return false;
     const struct shift shift = shift_between(filter, x, y, u, v);
@@ -500,7 +516,7 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
 /* What brings a shift from a pixel to the next to that over a block of level k, of how far things may. */
 static float shift_scale(const struct fast *fast, const struct rate *rate, int k)
 {
-    return (float)(SIDE << k) * sqrtf(rate->phong_high) / fast->settings->smooth;
+    return (float)(SIDE << k) * sqrtf(fmaxf(rate->phong_high, 1)) / fast->settings->smooth;
 }
 
 /* Computes the 16 pixels of a block of level k. False: what it sees is too near for so large a block. */
@@ -590,15 +606,16 @@ static void block_do(struct worker *worker, int x, int y, int k)
     if (x >= taps->width || y >= taps->height || worker->out_of_memory || interrupt_signal() ||
         !filter_is_needed(fast->filter, x, y, size, size))
         return;
-    const struct rate *rate = &fast->rates[k][(size_t)(y / size) * (size_t)fast->across[k] + (size_t)(x / size)];
-    if (rate->phong_high == 0)
+    const struct rate rate = rate_of_block(fast, x / size, y / size, k);
+    if (rate.phong_high < 0)
         return;
-    if (size == LANES && is_narrow(fast, rate, x, y)) {
+    if (size == LANES && is_narrow(fast, &rate, x, y)) {
         block_exact(worker, x, y);
         return;
     }
-    const bool fine = rate->phong_high <= phong_most && (k == 0 || (rate->phong_low == rate->phong_high && rate->turn * shift_scale(fast, rate, k) <= 0.75f));
-    if ((fine && block_compute(worker, rate, x, y, k)) || k == 0) {
+    const bool steady = rate.phong_low == rate.phong_high && rate.turn * shift_scale(fast, &rate, k) <= turn_most;
+    const bool fine = rate.phong_high <= phong_most && (k == 0 || steady);
+    if ((fine && block_compute(worker, &rate, x, y, k)) || k == 0) {
         for (int v = y; v < y + size && v < taps->height; v++)
             memset(fast->apart + pixel_of(fast, x, v), k, (size_t)(x + size < taps->width ? size : taps->width - x));
         return;
@@ -668,30 +685,57 @@ static void level_fill(struct fast *fast, int k)
                     interpolate(fast, x, y, pass == 0 ? half : 0, pass == 0 ? 0 : half);
 }
 
+void filter_fast_free(struct fast *fast)
+{
+    if (!fast)
+        return;
+    for (int k = 0; k < BLOCK_LEVELS; k++)
+        free(fast->rates[k]);
+    filter_cells_free(&fast->cells);
+    filter_visibility_free(&fast->visibility);
+    free(fast);
+}
+
+/* filter->fast, unless it is there. */
+static enum result fast_build(struct filter *filter, struct error *err)
+{
+    if (filter->fast)
+        return RESULT_OK;
+    struct fast *fast = calloc(1, sizeof *fast);
+    if (!fast)
+        return error_memory(err, sizeof *fast);
+    fast->filter = filter;
+    enum result result = filter_cells_build(filter, &fast->cells, err);
+    if (result == RESULT_OK)
+        result = filter_visibility_build(filter, &fast->visibility, err);
+    if (result == RESULT_OK)
+        result = rates_build(fast, err);
+    if (result == RESULT_OK)
+        filter->fast = fast;
+    else
+        filter_fast_free(fast);
+    return result;
+}
+
 enum result filter_fast(struct filter *filter, struct error *err)
 {
     const size_t pixels = (size_t)filter->taps.width * (size_t)filter->taps.height;
-    struct fast fast = {.filter = filter, .settings = &settings_of[filter->options->quality]};
-    fast.known = calloc(pixels, 1);
-    fast.apart = calloc(pixels, 1);
-    enum result result = fast.known && fast.apart ? RESULT_OK : error_memory(err, 2 * (double)pixels);
+    enum result result = fast_build(filter, err);
+    if (result != RESULT_OK)
+        return result;
+    struct fast *fast = filter->fast;
+    fast->settings = &settings_of[filter->options->quality];
+    fast->known = calloc(pixels, 1);
+    fast->apart = calloc(pixels, 1);
+    if (!fast->known || !fast->apart)
+        result = error_memory(err, 2 * (double)pixels);
     if (result == RESULT_OK)
-        result = filter_cells_build(filter, &fast.cells, err);
-    if (result == RESULT_OK)
-        result = filter_visibility_build(filter, &fast.visibility, err);
-    if (result == RESULT_OK)
-        result = rates_build(&fast, err);
-    if (result == RESULT_OK)
-        result = bands_run(fast.down[BLOCK_LEVELS - 1], 1, filter->options->threads, rows_do, &fast, err);
+        result = bands_run(fast->down[BLOCK_LEVELS - 1], 1, filter->options->threads, rows_do, fast, err);
     if (result == RESULT_OK && atomic_load(&filter->out_of_memory))
         result = error_memory(err, sights_bytes);
     for (int k = BLOCK_LEVELS - 1; k > 0 && result == RESULT_OK; k--)
-        level_fill(&fast, k);
-    for (int k = 0; k < BLOCK_LEVELS; k++)
-        free(fast.rates[k]);
-    filter_cells_free(&fast.cells);
-    filter_visibility_free(&fast.visibility);
-    free(fast.apart);
-    free(fast.known);
+        level_fill(fast, k);
+    free(fast->apart);
+    free(fast->known);
     return result;
 }
