@@ -41,8 +41,9 @@ PRELOAD := $(BUILD)/lib/povgloss/reads.so
 LIB_SOURCES := $(filter-out src/main_%.c $(KERNELS:%=src/%.c) src/preload_reads.c,$(wildcard src/*.c))
 LIB_OBJECTS := $(LIB_SOURCES:src/%.c=$(BUILD)/obj/%.o) $(if $(wildcard src/filter_kernel.c),$(KERNEL_OBJECTS))
 LIBRARY := $(BUILD)/libgloss.a
-# What is installed of it has one function, and no other name that could meet a user's.
+# What is installed of it has the functions of gloss.h, and no other name that could meet a user's.
 PUBLIC_LIBRARY := $(BUILD)/lib/libgloss.a
+PUBLIC_NAMES := gloss_filter gloss_open gloss_apply gloss_close
 # Found by the programs from the folder that they are in, here and installed.
 INCLUDE := $(BUILD)/share/povgloss/include/povgloss.inc
 
@@ -108,7 +109,7 @@ $(PUBLIC_LIBRARY): $(LIBRARY)
 	@mkdir -p $(@D)
 	rm -f $@
 	$(LD) -r -u gloss_filter -o $(BUILD)/obj/gloss_public.o $<
-	objcopy --keep-global-symbol=gloss_filter $(BUILD)/obj/gloss_public.o
+	objcopy $(PUBLIC_NAMES:%=--keep-global-symbol=%) $(BUILD)/obj/gloss_public.o
 	$(AR) rcs $@ $(BUILD)/obj/gloss_public.o
 
 $(INCLUDE): povscenes/povgloss.inc
@@ -245,8 +246,12 @@ run-fuzzers: $(FUZZERS)
 	done
 
 .PHONY: bench
-bench: $(PROGRAMS) $(PRELOAD) $(BUILD)/tests/tools/bench_filter ## times of the filter, and errors of its variants
+bench: $(PROGRAMS) $(PRELOAD) $(TOOLS) ## times of the filter, and errors of its variants
 	BIN=$(BUILD)/bin TOOLS=$(BUILD)/tests/tools OUT=$(BUILD)/bench scripts/bench.sh
+
+.PHONY: growth
+growth: $(PROGRAMS) $(INCLUDE) ## time and memory against pixels, exponent and threads (an hour): docs/growth.png
+	BIN=$(BUILD)/bin scripts/growth.sh
 
 .PHONY: corpus
 corpus: $(PROGRAMS) ## run every scene of povray-examples as it is; the table is docs/corpus.md

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Times of the filter, for docs/performance.md: qualities, instruction sets, threads, and the paper's filter with its
-# optimisations.
+# Times of the filter, for docs/performance.md: one weight of the exact sums, qualities, instruction sets, threads, and
+# the paper's filter with its optimisations.
 # Fails where an error is above what is stated. Times are medians in seconds of filter_glossy() alone, variants in turn;
 # errors are of the blurred reflection, linear, against the first variant of each table.
 # usage: scripts/bench.sh [SCENE.pov ...]
-# BIN: folder of the programs; TOOLS: of bench_filter; OUT: scratch folder, kept; PHONG: exponents; SIZE: POV-Ray's
+# BIN: folder of the programs; TOOLS: of bench_filter and bench_weights; OUT: scratch folder, kept; PHONG: exponents; SIZE: POV-Ray's
 # switches; RUNS: an odd number
 set -eu
 bin=${BIN:-build/bin} tools=${TOOLS:-build/tests/tools} out=${OUT:-build/bench}
@@ -22,6 +22,8 @@ table() {
     echo
 }
 
+"$tools/bench_weights" "${RUNS:-5}"
+echo
 for path; do
     passes=$out/$(basename "$path" .pov)${size[0]#+}.exr
     [ -e "$passes" ] || "$bin/povgloss" passes "$path" "${size[@]}" --quiet -o "$passes"
@@ -31,7 +33,7 @@ for path; do
         table "$passes" "0 $exact" "0 $exact --threads 1" "0 $exact --isa avx2" "0 $exact --isa sse2"
         table "$passes" "0 --phong $p" "0 --phong $p --threads 1" "0 --phong $p --isa avx2" "0 --phong $p --isa sse2"
         table "$passes" "0 --phong $p --mode paper" "0.001 --phong $p --mode paper --weights table" \
-            "0.02 --phong $p --mode paper --radius-step 4" "inf --phong $p"
+            "0.1 --phong $p --mode paper --radius-step 4" "inf --phong $p"
     done
 done
 exit $status

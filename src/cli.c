@@ -381,21 +381,23 @@ enum result cli_draw_sheet(const char *path, const struct cli_filter *options, c
                            const struct gbuffer *gbuffer, struct error *err)
 {
     struct image sheet = {0};
-    enum result result = RESULT_OK;
+    struct filter *filter;
+    enum result result = filter_open(gbuffer, &filter, err);
     for (int i = 0; !result && i < exponents->count; i++) {
-        struct filter_options filter = options->filter;
-        filter.phong = exponents->phong[i];
-        filter.phong_override = true;
+        struct filter_options one = options->filter;
+        one.phong = exponents->phong[i];
+        one.phong_override = true;
         struct image image = {0};
         char label[32];
-        snprintf(label, sizeof label, "p = %g", (double)filter.phong);
-        result = picture_draw(gbuffer, &filter, &image, err);
+        snprintf(label, sizeof label, "p = %g", (double)one.phong);
+        result = picture_draw(filter, &one, &image, err);
         if (!result && i == 0)
             result = sheet_alloc(&sheet, exponents->count, image.width, image.height, err);
         if (!result)
             sheet_put(&sheet, exponents->count, i, &image, label);
         image_free(&image);
     }
+    filter_close(filter);
     if (!result)
         result = write_picture(path, options, &sheet, NULL, NULL, err);
     image_free(&sheet);

@@ -795,31 +795,28 @@ static enum result check(const struct gbuffer *gbuffer, const struct filter_opti
     return RESULT_OK;
 }
 
-static enum result filter_alloc(struct filter *filter, struct error *err)
+/* Frees what is built. */
+static void parts_free(struct filter *filter)
 {
-    static filter_kernel *const kernels[CPU_ISA_COUNT] = {[CPU_ISA_SSE2] = filter_kernel_sse2,
-                                                          [CPU_ISA_AVX2] = filter_kernel_avx2,
-                                                          [CPU_ISA_AVX512] = filter_kernel_avx512};
-    static filter_see *const sees[CPU_ISA_COUNT] = {
-        [CPU_ISA_SSE2] = filter_see_sse2, [CPU_ISA_AVX2] = filter_see_avx2, [CPU_ISA_AVX512] = filter_see_avx512};
-    static const struct sight_kernel *const sights[CPU_ISA_COUNT] = {[CPU_ISA_SSE2] = &sight_kernel_sse2,
-                                                                     [CPU_ISA_AVX2] = &sight_kernel_avx2,
-                                                                     [CPU_ISA_AVX512] = &sight_kernel_avx512};
-    const struct filter_options *options = filter->options;
-    const int width = filter->gbuffer->specular.width, height = filter->gbuffer->specular.height;
-    const enum cpu_isa isa = options->isa == CPU_ISA_AUTO ? cpu_isa_best() : options->isa;
-    filter->kernel = kernels[isa];
-    filter->see = sees[isa];
-    filter->sight = sights[isa];
-    filter->energy = options->energy > 0 ? options->energy : 0.99;
-    filter->floor = options->energy > 0 ? 1 - options->energy : 0.001;
-    filter->radius_limit_px = hypot(width, height);
-    if (options->max_radius_px > 0)
-        filter->radius_limit_px = fmin(filter->radius_limit_px, options->max_radius_px);
+    filter_fast_free(filter->fast);
+    free(filter->table);
+    free(filter->boxes);
+    free(filter->kinds);
+    free(filter->planes);
+    filter->fast = NULL;
+    filter->table = filter->planes = NULL;
+    filter->boxes = NULL;
+    filter->kinds = NULL;
+}
 
-    size_t stride = ((size_t)width + FILTER_LANES - 1) / FILTER_LANES * FILTER_LANES + 2 * FILTER_BORDER;
-    size_t plane = stride * (size_t)height, blocks = plane / FILTER_LANES;
-    size_t bytes = plane * FILTER_PLANES * sizeof(float);
+static enum result parts_alloc(struct filter *filter, struct error *err)
+{
+    struct filter_taps *taps = &filter->taps;
+    taps->width = filter->gbuffer->specular.width;
+    taps->height = filter->gbuffer->specular.height;
+    taps->stride = ((size_t)taps->width + FILTER_LANES - 1) / FILTER_LANES * FILTER_LANES + 2 * FILTER_BORDER;
+    const size_t plane = taps->stride * (size_t)taps->height, blocks = plane / FILTER_LANES;
+    const size_t bytes = plane * FILTER_PLANES * sizeof(float);
     filter->planes = aligned_alloc(64, bytes);
     filter->kinds = calloc(blocks, 1);
     filter->boxes = malloc(blocks * sizeof *filter->boxes);
@@ -830,31 +827,97 @@ static enum result filter_alloc(struct filter *filter, struct error *err)
         filter->boxes[i] = empty_box;
     memset(filter->planes, 0, bytes);
     weights_table_build(filter->table);
-    filter->taps = (struct filter_taps){
-        .width = width,
-        .height = height,
-        .stride = stride,
-        .kinds = filter->kinds,
-        .boxes = filter->boxes,
-        .square = options->window == FILTER_WINDOW_SQUARE,
-        .shape = options->mode == FILTER_MODE_PAPER ? shape_of(options->weights) : FILTER_SHAPE_SOLID,
-        .table = filter->table,
-    };
+    taps->kinds = filter->kinds;
+    taps->boxes = filter->boxes;
+    taps->table = filter->table;
     for (int i = 0; i < FILTER_PLANES; i++)
-        filter->taps.planes[i] = filter->planes + (size_t)i * plane;
+        taps->planes[i] = filter->planes + (size_t)i * plane;
+    return RESULT_OK;
+}
+
+/* The taps, and for the best filter their areas, unless they are there. */
+static enum result parts_build(struct filter *filter, struct error *err)
+{
+    const struct filter_options *options = filter->options, *before = &filter->built_for;
+    const int height = filter->gbuffer->specular.height;
+    if (filter->planes && before->mode == options->mode && before->formula == options->formula &&
+        before->without == options->without)
+        return RESULT_OK;
+    parts_free(filter);
+    enum result result = parts_alloc(filter, err);
+    if (result == RESULT_OK) {
+        scales_find(filter);
+        result = bands_run(height, 16, options->threads, taps_fill, filter, err);
+    }
+    if (result == RESULT_OK && options->mode == FILTER_MODE_BEST)
+        result = bands_run(height, 16, options->threads, areas_fill, filter, err);
+    filter->built_for = *options;
+    if (result != RESULT_OK)
+        parts_free(filter);
+    return result;
+}
+
+/* What one call sets. */
+static enum result call_begin(struct filter *filter, const struct filter_options *options, struct image *glossy,
+                              struct error *err)
+{
+    static filter_kernel *const kernels[CPU_ISA_COUNT] = {[CPU_ISA_SSE2] = filter_kernel_sse2,
+                                                          [CPU_ISA_AVX2] = filter_kernel_avx2,
+                                                          [CPU_ISA_AVX512] = filter_kernel_avx512};
+    static filter_see *const sees[CPU_ISA_COUNT] = {
+        [CPU_ISA_SSE2] = filter_see_sse2, [CPU_ISA_AVX2] = filter_see_avx2, [CPU_ISA_AVX512] = filter_see_avx512};
+    static const struct sight_kernel *const sights[CPU_ISA_COUNT] = {[CPU_ISA_SSE2] = &sight_kernel_sse2,
+                                                                     [CPU_ISA_AVX2] = &sight_kernel_avx2,
+                                                                     [CPU_ISA_AVX512] = &sight_kernel_avx512};
+    const int width = filter->gbuffer->specular.width, height = filter->gbuffer->specular.height;
+    const enum cpu_isa isa = options->isa == CPU_ISA_AUTO ? cpu_isa_best() : options->isa;
+    filter->options = options;
+    filter->kernel = kernels[isa];
+    filter->see = sees[isa];
+    filter->sight = sights[isa];
+    filter->energy = options->energy > 0 ? options->energy : 0.99;
+    filter->floor = options->energy > 0 ? 1 - options->energy : 0.001;
+    filter->radius_limit_px = hypot(width, height);
+    if (options->max_radius_px > 0)
+        filter->radius_limit_px = fmin(filter->radius_limit_px, options->max_radius_px);
+    filter->taps.square = options->window == FILTER_WINDOW_SQUARE;
+    filter->taps.shape = options->mode == FILTER_MODE_PAPER ? shape_of(options->weights) : FILTER_SHAPE_SOLID;
+    filter->glossy = glossy;
+    atomic_store(&filter->out_of_memory, false);
     enum result result = image_alloc(&filter->radius, width, height, 1, err);
     if (result == RESULT_OK)
         result = image_alloc(&filter->confidence, width, height, 1, err);
     if (result == RESULT_OK)
-        result = image_alloc(filter->glossy, width, height, 3, err);
+        result = image_alloc(glossy, width, height, 3, err);
     return result;
 }
 
-enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_options *options, struct image *glossy,
-                          struct image *measure, struct error *err)
+enum result filter_open(const struct gbuffer *gbuffer, struct filter **filter, struct error *err)
 {
-    struct filter filter = {.gbuffer = gbuffer, .options = options, .glossy = glossy};
-    const int threads = options->threads, step = options->radius_step;
+    *filter = calloc(1, sizeof **filter);
+    if (!*filter)
+        return error_memory(err, sizeof **filter);
+    (*filter)->gbuffer = gbuffer;
+    return RESULT_OK;
+}
+
+void filter_close(struct filter *filter)
+{
+    if (filter)
+        parts_free(filter);
+    free(filter);
+}
+
+const struct gbuffer *filter_gbuffer(const struct filter *filter)
+{
+    return filter->gbuffer;
+}
+
+enum result filter_apply(struct filter *filter, const struct filter_options *options, struct image *glossy,
+                         struct image *measure, struct error *err)
+{
+    const struct gbuffer *gbuffer = filter->gbuffer;
+    const int threads = options->threads, step = options->radius_step, height = gbuffer->specular.height;
     const bool paper = options->mode == FILTER_MODE_PAPER;
     *glossy = (struct image){0};
     if (measure)
@@ -862,43 +925,45 @@ enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_opt
     enum result result = check(gbuffer, options, err);
     if (result != RESULT_OK)
         return result;
-    result = filter_alloc(&filter, err);
-    if (result != RESULT_OK)
-        goto out;
-    const int height = filter.taps.height;
-
-    scales_find(&filter);
-    result = bands_run(height, 16, threads, taps_fill, &filter, err);
-    if (result == RESULT_OK && !paper)
-        result = bands_run(height, 16, threads, areas_fill, &filter, err);
+    result = call_begin(filter, options, glossy, err);
     if (result == RESULT_OK)
-        result = bands_run((height + step - 1) / step, 16, threads, radius_coarse, &filter, err);
+        result = parts_build(filter, err);
     if (result == RESULT_OK)
-        result = bands_run(height, 16, threads, radius_fine, &filter, err);
-    if (result == RESULT_OK && filter_fast_applies(&filter))
-        result = filter_fast(&filter, err);
+        result = bands_run((height + step - 1) / step, 16, threads, radius_coarse, filter, err);
+    if (result == RESULT_OK)
+        result = bands_run(height, 16, threads, radius_fine, filter, err);
+    if (result == RESULT_OK && filter_fast_applies(filter))
+        result = filter_fast(filter, err);
     else if (result == RESULT_OK)
-        result = bands_run(height, 1, threads, paper ? blur_paper : blur_best, &filter, err);
-    if (result == RESULT_OK && atomic_load(&filter.out_of_memory))
-        result = error_memory(err, (double)FILTER_SEE_SCRATCH(filter.taps.width));
+        result = bands_run(height, 1, threads, paper ? blur_paper : blur_best, filter, err);
+    if (result == RESULT_OK && atomic_load(&filter->out_of_memory))
+        result = error_memory(err, (double)FILTER_SEE_SCRATCH(filter->taps.width));
     if (result == RESULT_OK && gbuffer->rays.pixels)
         result = control_variate(gbuffer, options->phong_override ? options->phong : NAN, threads, glossy, err);
     if (result == RESULT_OK && gbuffer->reflectance.pixels)
-        result = bands_run(height, 16, threads, edges, &filter, err);
+        result = bands_run(height, 16, threads, edges, filter, err);
     if (result == RESULT_OK && measure) {
-        struct image *found = paper ? &filter.radius : &filter.confidence;
+        struct image *found = paper ? &filter->radius : &filter->confidence;
         *measure = *found;
         *found = (struct image){0};
     }
-
-out:
     if (result != RESULT_OK)
         image_free(glossy);
-    image_free(&filter.radius);
-    image_free(&filter.confidence);
-    free(filter.table);
-    free(filter.boxes);
-    free(filter.kinds);
-    free(filter.planes);
+    image_free(&filter->radius);
+    image_free(&filter->confidence);
+    return result;
+}
+
+enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_options *options, struct image *glossy,
+                          struct image *measure, struct error *err)
+{
+    struct filter *filter;
+    *glossy = (struct image){0};
+    if (measure)
+        *measure = (struct image){0};
+    enum result result = filter_open(gbuffer, &filter, err);
+    if (result == RESULT_OK)
+        result = filter_apply(filter, options, glossy, measure, err);
+    filter_close(filter);
     return result;
 }

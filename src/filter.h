@@ -48,6 +48,17 @@ struct filter_options {
  * */
 struct filter_options filter_options_default(void);
 
+/* A gbuffer, and what is built of it for filter_apply() whatever the exponents. */
+struct filter;
+
+/* *filter, which filter_close() frees, keeps the gbuffer: it must stay as it is until then. RESULT_DATA: memory. */
+MUST_CHECK enum result filter_open(const struct gbuffer *gbuffer, struct filter **filter, struct error *err);
+
+/* NULL is allowed. */
+void filter_close(struct filter *filter);
+
+const struct gbuffer *filter_gbuffer(const struct filter *filter);
+
 /* glossy (allocated here, 3 channels; the caller frees it) = the specular plane blurred where the pixel is glossy;
  * where it is not glossy but the reflectance is above 0 (an antialiased edge) the mean of the nearest glossy pixels'
  * results, at most 3 pixels away; 0 elsewhere. measure, where not NULL, is allocated too, 1 channel, 0 where not
@@ -95,11 +106,18 @@ struct filter_options filter_options_default(void);
  * is Theta over the angle between the endpoints of neighbouring pixels, seen from a: the smallest over the glossy ones
  * of the four neighbours; 0 where there are none.
  *
+ * One call at a time for each filter. The first one builds what doesn't depend on the exponents; one with another mode,
+ * formula or `without` builds it anew. What calls came before makes no difference to the result.
+ *
  * RESULT_USAGE: no exponent, or an instruction set this processor lacks. RESULT_DATA: missing planes or sizes that
- * differ, memory. RESULT_INTERRUPTED. On failure both images are empty.
+ * differ, memory. RESULT_INTERRUPTED. On failure both images are empty, and the filter may be applied again.
  */
+MUST_CHECK enum result filter_apply(struct filter *filter, const struct filter_options *options, struct image *glossy,
+                                    struct image *measure, struct error *err);
+
+/* filter_open(), filter_apply() and filter_close(). */
 MUST_CHECK enum result filter_glossy(const struct gbuffer *gbuffer, const struct filter_options *options,
-                                     struct image *glossy, struct image *radius, struct error *err);
+                                     struct image *glossy, struct image *measure, struct error *err);
 
 /* Pixels that are meant to be glossy, by an endpoint that isn't all zero and an exponent that isn't 0, and yet are not:
  * an exponent below 0 or NaN, W below 0, or NaN or infinity in position, endpoint or specular. The planes must be

@@ -11,18 +11,26 @@
 /* How far beyond the picture, which may be a part of the planes, results are looked at. */
 enum { FILTER_EDGE_REACH_PX = 3 };
 
+struct fast;
+
 struct filter {
     const struct gbuffer *gbuffer;
-    const struct filter_options *options;
-    filter_kernel *kernel;
-    filter_see *see;
-    const struct sight_kernel *sight;
-    struct filter_taps taps;
+
+    /* Built once; NULL: not yet. For the mode, formula and `without` of the options that it was built for. */
+    struct filter_options built_for;
     float *planes;
     unsigned char *kinds;
     struct filter_box *boxes;
     float *table;
     double length_scale, radiance_scale; /* powers of two that keep squares and sums within the range of a float */
+    struct fast *fast;                   /* the fast filter's part, which only that builds */
+
+    /* Of one call. */
+    const struct filter_options *options;
+    filter_kernel *kernel;
+    filter_see *see;
+    const struct sight_kernel *sight;
+    struct filter_taps taps;
     double energy;
     double floor; /* of the best filter's weights */
     double radius_limit_px;

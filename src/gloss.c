@@ -1,10 +1,11 @@
-/* The public face of the library: planes of the caller's in, filter_glossy(), planes of the caller's out. */
+/* The public face of the library: planes of the caller's in, the filter, planes of the caller's out. */
 #include "gloss.h"
 
 #include "filter.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static size_t row_stride(const struct gloss_planes *planes)
@@ -64,25 +65,71 @@ static enum result take_options(const struct gloss_options *from, struct filter_
     return RESULT_OK;
 }
 
-enum gloss_status gloss_filter(const struct gloss_planes *planes, const struct gloss_options *options,
-                               float *const glossy[3], char *message, size_t message_size)
+struct gloss {
+    struct gbuffer gbuffer;
+    struct filter *filter;
+    size_t stride;
+};
+
+static enum gloss_status status_of(enum result result, const struct error *err, char *message, size_t message_size)
 {
-    struct gbuffer gbuffer = {0};
+    if (message_size > 0)
+        snprintf(message, message_size, "%s", err->text);
+    return (enum gloss_status)result;
+}
+
+enum gloss_status gloss_open(const struct gloss_planes *planes, struct gloss **gloss, char *message,
+                             size_t message_size)
+{
+    struct error err = {""};
+    *gloss = calloc(1, sizeof **gloss);
+    enum result result = *gloss ? RESULT_OK : error_memory(&err, sizeof **gloss);
+    if (!result)
+        result = take_all(planes, &(*gloss)->gbuffer, &err);
+    if (!result)
+        result = filter_open(&(*gloss)->gbuffer, &(*gloss)->filter, &err);
+    if (!result)
+        (*gloss)->stride = row_stride(planes);
+    if (result) {
+        gloss_close(*gloss);
+        *gloss = NULL;
+    }
+    return status_of(result, &err, message, message_size);
+}
+
+enum gloss_status gloss_apply(struct gloss *gloss, const struct gloss_options *options, float *const glossy[3],
+                              char *message, size_t message_size)
+{
     struct filter_options filter = filter_options_default();
     struct image blurred = {0};
     struct error err = {""};
     enum result result = take_options(options, &filter, &err);
     if (!result)
-        result = take_all(planes, &gbuffer, &err);
-    if (!result)
-        result = filter_glossy(&gbuffer, &filter, &blurred, NULL, &err);
+        result = filter_apply(gloss->filter, &filter, &blurred, NULL, &err);
     for (int i = 0; i < 3 && !result; i++)
-        for (int y = 0; y < planes->height; y++)
-            memcpy(glossy[i] + row_stride(planes) * (size_t)y, image_row(&blurred, i, y),
-                   (size_t)planes->width * sizeof(float));
+        for (int y = 0; y < blurred.height; y++)
+            memcpy(glossy[i] + gloss->stride * (size_t)y, image_row(&blurred, i, y),
+                   (size_t)blurred.width * sizeof(float));
     image_free(&blurred);
-    gbuffer_free(&gbuffer);
-    if (message_size > 0)
-        snprintf(message, message_size, "%s", err.text);
-    return (enum gloss_status)result;
+    return status_of(result, &err, message, message_size);
+}
+
+void gloss_close(struct gloss *gloss)
+{
+    if (!gloss)
+        return;
+    filter_close(gloss->filter);
+    gbuffer_free(&gloss->gbuffer);
+    free(gloss);
+}
+
+enum gloss_status gloss_filter(const struct gloss_planes *planes, const struct gloss_options *options,
+                               float *const glossy[3], char *message, size_t message_size)
+{
+    struct gloss *gloss;
+    enum gloss_status status = gloss_open(planes, &gloss, message, message_size);
+    if (!status)
+        status = gloss_apply(gloss, options, glossy, message, message_size);
+    gloss_close(gloss);
+    return status;
 }

@@ -54,6 +54,16 @@ struct gloss_options {
 enum gloss_status gloss_filter(const struct gloss_planes *planes, const struct gloss_options *options,
                                float *const glossy[3], char *message, size_t message_size);
 
+/* The same in steps, to blur the same planes with one exponent after another: the first gloss_apply() builds what the
+ * exponent doesn't change. gloss_open() copies the planes; *gloss, which gloss_close() frees, is NULL on failure.
+ * gloss_apply() may be called from one thread at a time for each gloss; what calls came before makes no difference. */
+struct gloss;
+enum gloss_status gloss_open(const struct gloss_planes *planes, struct gloss **gloss, char *message,
+                             size_t message_size);
+enum gloss_status gloss_apply(struct gloss *gloss, const struct gloss_options *options, float *const glossy[3],
+                              char *message, size_t message_size);
+void gloss_close(struct gloss *gloss); /* NULL is allowed */
+
 #ifdef __cplusplus
 }
 #endif

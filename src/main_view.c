@@ -30,6 +30,7 @@ struct wish {
 struct view {
     const struct cli_glossfilter *command;
     struct gbuffer levels[LEVELS]; /* level i has every 2^i-th pixel */
+    struct filter *filters[LEVELS];
     SDL_Window *window;
     SDL_Renderer *renderer;
     SDL_Texture *texture;
@@ -65,7 +66,7 @@ static enum result draw_level(const struct view *view, const struct wish *wish, 
                               struct error *err)
 {
     struct filter_options options = options_of(view, wish);
-    return picture_draw(&view->levels[level], &options, picture, err);
+    return picture_draw(view->filters[level], &options, picture, err);
 }
 
 /* ---- the thread */
@@ -376,6 +377,8 @@ static enum result run(const struct cli_glossfilter *command, struct error *err)
     enum result result = cli_read(command, &view.levels[0], err);
     for (int level = 1; !result && level < LEVELS; level++)
         result = picture_reduce(&view.levels[0], 1 << level, &view.levels[level], err);
+    for (int level = 0; !result && level < LEVELS; level++)
+        result = filter_open(&view.levels[level], &view.filters[level], err);
     if (!result)
         result = open_window(&view, err);
     if (!result) {
@@ -394,8 +397,10 @@ static enum result run(const struct cli_glossfilter *command, struct error *err)
         SDL_WaitThread(thread, NULL);
     }
     close_window(&view);
-    for (int level = 0; level < LEVELS; level++)
+    for (int level = 0; level < LEVELS; level++) {
+        filter_close(view.filters[level]);
         gbuffer_free(&view.levels[level]);
+    }
     return result;
 }
 

@@ -3,12 +3,13 @@
 
 #include "compose.h"
 
-enum result picture_draw(const struct gbuffer *gbuffer, const struct filter_options *options, struct image *picture,
+enum result picture_draw(struct filter *filter, const struct filter_options *options, struct image *picture,
                          struct error *err)
 {
+    const struct gbuffer *gbuffer = filter_gbuffer(filter);
     struct image glossy = {0};
     *picture = (struct image){0};
-    enum result result = filter_glossy(gbuffer, options, &glossy, NULL, err);
+    enum result result = filter_apply(filter, options, &glossy, NULL, err);
     if (!result)
         result = compose(gbuffer, &glossy, picture, err);
     if (!result && gbuffer->window.width > 0)

@@ -4,10 +4,10 @@
 
 #include "filter.h"
 
-/* picture (allocated here, 3 channels, linear; the caller frees it): filter_glossy, compose, and what the gbuffer's
- * window shows of it. Fails as they do; *picture is then empty. */
-MUST_CHECK enum result picture_draw(const struct gbuffer *gbuffer, const struct filter_options *options,
-                                    struct image *picture, struct error *err);
+/* picture (allocated here, 3 channels, linear; the caller frees it): filter_apply, compose, and what the window of the
+ * filter's gbuffer shows of it. Fails as they do; *picture is then empty. */
+MUST_CHECK enum result picture_draw(struct filter *filter, const struct filter_options *options, struct image *picture,
+                                    struct error *err);
 
 /* reduced (the caller frees it) has every step-th pixel across and down, and the gbuffer's view of them; what only
  * probes need is left out. RESULT_DATA: memory; *reduced is then empty. */

@@ -3,6 +3,8 @@
  * TESTS='*threads*' runs those of that name. */
 #include "gloss_support.h"
 
+#include "interrupt.h"
+
 #include <float.h>
 
 enum { WIDTH = 64, HEIGHT = 40 };
@@ -540,6 +542,25 @@ static void properties__smaller_exponent__spreads_more(void **state)
     for_all(try_spread);
 }
 
+static void try_uniform_lobe(struct trial *trial)
+{
+    struct image glossy;
+    trial->options.phong_override = true;
+    trial->options.phong = 1e-6f;
+    image_free(&trial->glossy);
+    filter_run(&trial->gbuffer, &trial->options, &trial->glossy, NULL);
+    trial->options.phong = 0;
+    filter_run(&trial->gbuffer, &trial->options, &glossy, NULL);
+    compare(trial, &glossy, 1e-4, 0.001, "p = 0");
+    image_free(&glossy);
+}
+
+static void properties__exponent_0__is_the_limit_of_small_ones(void **state)
+{
+    (void)state;
+    for_all(try_uniform_lobe);
+}
+
 /* --- parts and processors --- */
 
 static struct image image_part(const struct image *image, int x, int y, int width, int height)
@@ -610,6 +631,67 @@ static void properties__threads_and_instruction_sets__give_the_same_bits(void **
     for_all(try_processors);
 }
 
+/* --- calls in a row --- */
+
+/* Seldom what needs other parts built. */
+static void change_options(struct filter_options *options)
+{
+    static const float phongs[] = {0, 3, 40, 500, 2e4f, 1e7f, INFINITY};
+    if (random_unit() < 0.3)
+        options->mode = options->mode == FILTER_MODE_BEST ? FILTER_MODE_PAPER : FILTER_MODE_BEST;
+    if (random_unit() < 0.15)
+        options->formula = (enum filter_formula)random_between(0, 2);
+    if (random_unit() < 0.15)
+        options->without = (unsigned)random_between(0, 16);
+    options->quality = random_unit() < 0.3 ? FILTER_QUALITY_EXACT : FILTER_QUALITY_DRAFT;
+    options->weights = (enum filter_weights)random_between(0, 3);
+    options->window = (enum filter_window)random_between(0, 2);
+    options->phong_override = random_unit() < 0.6;
+    options->phong = phongs[(size_t)random_between(0, sizeof phongs / sizeof phongs[0])];
+    options->energy = random_unit() < 0.3 ? 0.9 : 0;
+    options->max_radius_px = random_unit() < 0.2 ? 5 : 0;
+    options->radius_step = random_unit() < 0.2 ? 4 : 1;
+    options->threads = (int)random_between(1, 4);
+    options->isa = random_unit() < 0.2 ? CPU_ISA_SSE2 : CPU_ISA_AUTO;
+}
+
+static void properties__filter_on_threads_applied_again__as_one_of_its_own(void **state)
+{
+    enum { CALLS = 25 };
+    const unsigned long first = from_environment("SEED", 1), count = from_environment("SEEDS", 6);
+    (void)state;
+    for (unsigned long seed = first; seed < first + count; seed++) {
+        struct filter_options options = filter_options_default();
+        struct gbuffer gbuffer;
+        struct filter *filter;
+        struct error err;
+        passes_draw(seed, WIDTH, HEIGHT, &gbuffer);
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = WIDTH / 2 - 3; x < WIDTH; x++)
+                image_row(&gbuffer.phong, 0, y)[x] /= 30;
+        assert_ok(filter_open(&gbuffer, &filter, &err), err);
+        for (int call = 0; call < CALLS; call++) {
+            struct image glossy, measure, expected, expected_measure;
+            const bool stopped = random_unit() < 0.2;
+            change_options(&options);
+            interrupt_stop(stopped);
+            if (stopped)
+                assert_int_equal(filter_apply(filter, &options, &glossy, &measure, &err), RESULT_INTERRUPTED);
+            interrupt_stop(false);
+            assert_ok(filter_apply(filter, &options, &glossy, &measure, &err), err);
+            filter_run(&gbuffer, &options, &expected, &expected_measure);
+            if (!image_same(&glossy, &expected) || !image_same(&measure, &expected_measure))
+                fail_msg("SEED=%lu: call %d gives another picture", seed, call);
+            image_free(&glossy);
+            image_free(&measure);
+            image_free(&expected);
+            image_free(&expected_measure);
+        }
+        filter_close(filter);
+        gbuffer_free(&gbuffer);
+    }
+}
+
 /* --- clusters and interpolation --- */
 
 static double rmse(const struct image *image, const struct image *expected)
@@ -662,9 +744,11 @@ int main(void)
         cmocka_unit_test(properties__result__lies_between_the_neighbours_radiances),
         cmocka_unit_test(properties__flipped_passes__give_the_flipped_picture),
         cmocka_unit_test(properties__smaller_exponent__spreads_more),
+        cmocka_unit_test(properties__exponent_0__is_the_limit_of_small_ones),
         cmocka_unit_test(properties__tile_with_a_border__is_that_part_of_the_picture),
         cmocka_unit_test(properties__qualities__come_near_the_exact_sums),
         cmocka_unit_test(properties__threads_and_instruction_sets__give_the_same_bits),
+        cmocka_unit_test(properties__filter_on_threads_applied_again__as_one_of_its_own),
     };
     cmocka_set_test_filter(getenv("TESTS"));
     return cmocka_run_group_tests_name("filter_properties", tests, NULL, NULL);

@@ -76,6 +76,38 @@ static void gloss_filter__planes_with_a_stride__as_the_filter(void **state)
     gbuffer_free(&gbuffer);
 }
 
+static void gloss_apply__one_exponent_after_another__each_as_gloss_filter(void **state)
+{
+    (void)state;
+    struct gloss_planes planes = make_planes();
+    struct gloss *gloss;
+    static const float phongs[] = {80, 5, 2000, 80};
+    static float expected_of[3][STRIDE * HEIGHT];
+    assert_int_equal(gloss_open(&planes, &gloss, NULL, 0), GLOSS_OK);
+    for (size_t n = 0; n < sizeof phongs / sizeof *phongs; n++) {
+        const struct gloss_options one = {.phong = phongs[n], .phong_for_all = n != 1};
+        planes = make_planes();
+        assert_int_equal(gloss_filter(&planes, &one, (float *const[]){expected_of[0], expected_of[1], expected_of[2]},
+                                      NULL, 0),
+                         GLOSS_OK);
+        for (int i = 0; i < 14; i++)
+            memset(planes_of[i], 0, sizeof planes_of[i]); /* the caller's planes aren't needed any more */
+        assert_int_equal(gloss_apply(gloss, &one, glossy, NULL, 0), GLOSS_OK);
+        for (int i = 0; i < 3; i++)
+            for (int y = 0; y < HEIGHT; y++)
+                assert_memory_equal(glossy[i] + y * STRIDE, expected_of[i] + y * STRIDE, WIDTH * sizeof(float));
+    }
+    char message[128];
+    const struct gloss_options wrong = {.phong = -1};
+    assert_int_equal(gloss_apply(gloss, &wrong, glossy, message, sizeof message), GLOSS_USAGE);
+    assert_contains(message, "below 0 or NaN");
+    gloss_close(gloss);
+    gloss_close(NULL);
+    planes.specular[1] = NULL;
+    assert_int_equal(gloss_open(&planes, &gloss, message, sizeof message), GLOSS_USAGE);
+    assert_null(gloss);
+}
+
 static void assert_refused(const struct gloss_planes *planes, struct gloss_options with, enum gloss_status status,
                            const char *part)
 {
@@ -118,6 +150,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gloss_filter__planes_with_a_stride__as_the_filter),
         cmocka_unit_test(gloss_filter__wrong_planes_or_options__refused),
+        cmocka_unit_test(gloss_apply__one_exponent_after_another__each_as_gloss_filter),
     };
     return cmocka_run_group_tests_name("gloss", tests, scratch_setup, scratch_teardown);
 }
