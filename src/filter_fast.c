@@ -13,6 +13,7 @@
 
 #include "bands.h"
 #include "filter_cells.h"
+#include "filter_visibility.h"
 #include "interrupt.h"
 #include "lobe.h"
 
@@ -25,8 +26,6 @@ enum {
     SIDE = 4,         /* computed pixels across a block */
     BLOCK_LEVELS = 5, /* of blocks whose pixels are 1, 2, 4, 8 and 16 apart */
     LARGEST = SIDE << (BLOCK_LEVELS - 1),
-    SIGHT_LEVELS = 6, /* the coarsest is of SIGHT_CELL pixels */
-    SIGHT_CELL = 1 << (SIGHT_LEVELS - 1),
     SIGHTS = 40, /* that are kept, while their memory allows: */
     LEAST_PIXELS = 1 << 14 /* of a picture: the exact sums of a smaller one are as fast */
 };
@@ -41,7 +40,8 @@ static const float few_pixels = 300;
 
 /* Units: of the lobe's width, 1/sqrt(p) radians, at most 1. */
 struct settings {
-    float smooth; /* things shift by no more over a block */
+    float smooth; /* things shift by no more over a block, */
+    float unsteady; /* but for this share of what is seen (no unit) */
     float alike;  /* and over a lattice of sights */
     float akin;   /* the same where no lattice is so fine */
     float spread; /* of the directions of a cell that is used whole */
@@ -49,10 +49,12 @@ struct settings {
     float hidden; /* what the hidden share of such a cell may be off, of the whole lobe's weight (no unit) */
 };
 
+
+
 static const struct settings settings_of[] = {
-    [FILTER_QUALITY_DRAFT] = {8, 0.6f, 1, 0.5f, 1 / 5.f, 4e-3f},
-    [FILTER_QUALITY_NORMAL] = {3, 0.3f, 1, 0.4f, 1 / 8.f, 2e-3f},
-    [FILTER_QUALITY_HIGH] = {1, 0.2f, 0.6f, 0.3f, 1 / 12.f, 5e-4f},
+    [FILTER_QUALITY_DRAFT] = {8, 0.05f, 0.6f, 1, 0.5f, 1 / 5.f, 4e-3f},
+    [FILTER_QUALITY_NORMAL] = {4, 0.01f, 0.2f, 1, 0.5f, 1 / 8.f, 2e-3f},
+    [FILTER_QUALITY_HIGH] = {1.5f, 0.005f, 0.15f, 0.5f, 0.3f, 1 / 12.f, 5e-4f},
 };
 
 /* The largest of what changes from a pixel to the next, within a block. */
@@ -66,23 +68,12 @@ struct rate {
 struct fast {
     struct filter *filter;
     struct filter_cells cells;
-    struct sight_planes rows, columns;
-    float *transposed;
+    struct filter_visibility visibility;
     struct rate *rates[BLOCK_LEVELS];
     int across[BLOCK_LEVELS], down[BLOCK_LEVELS]; /* blocks */
     /* Of one call: */
     const struct settings *settings;
     unsigned char *known, *apart; /* of each pixel: its result is there; log2 of how far apart its block's pixels are */
-};
-
-/* What a pixel sees, in a rectangle of whole cells outside which all is hidden. */
-struct sight {
-    int x, y;
-    long used; /* when; 0: never */
-    int left, top, width, height;
-    uint8_t *data;
-    size_t capacity;
-    uint8_t *levels[SIGHT_LEVELS][3]; /* mean, least and largest hidden share */
 };
 
 /* What one thread works with. */
@@ -91,9 +82,8 @@ struct worker {
     struct sight sights[SIGHTS];
     int sight_count; /* that may be kept */
     long clock;
-    uint8_t *map; /* of the picture, in whole cells: all hidden but while a sight is made */
-    int map_width;
-    float *scratch, *exact; /* of sight_march, of filter_best_lanes */
+    struct sight_scratch scratch;
+    float *exact;     /* of filter_best_lanes */
     struct filter_node *nodes;
     float *hidden; /* SIGHTS_OF_GROUP a node */
     int count, capacity;
@@ -230,45 +220,6 @@ static struct rate rate_of_block(const struct fast *fast, int x, int y, int k)
     return rate;
 }
 
-/* The taps by columns. */
-static enum result columns_build(struct fast *fast, struct error *err)
-{
-    static const enum filter_plane from[] = {FILTER_PLANE_X, FILTER_PLANE_Y, FILTER_PLANE_Z, FILTER_PLANE_W,
-                                             FILTER_PLANE_AREA};
-    enum { PLANES = sizeof from / sizeof from[0] };
-    const struct filter_taps *taps = &fast->filter->taps;
-    const float *planes[PLANES];
-    const size_t stride = ((size_t)taps->height + LANES - 1) / LANES * LANES + 2 * FILTER_BORDER;
-    const size_t plane = stride * (size_t)taps->width;
-    fast->transposed = calloc(PLANES * plane, sizeof *fast->transposed);
-    if (!fast->transposed)
-        return error_memory(err, (double)(PLANES * plane * sizeof *fast->transposed));
-    for (int i = 0; i < PLANES; i++) {
-        float *to = fast->transposed + (size_t)i * plane;
-        planes[i] = to;
-        for (int y = 0; y < taps->height; y++)
-            for (int x = 0; x < taps->width; x++)
-                to[(size_t)x * stride + (size_t)y + FILTER_BORDER] = *filter_tap_at(fast->filter, from[i], x, y);
-    }
-    fast->rows = (struct sight_planes){.width = taps->width,
-                                       .height = taps->height,
-                                       .stride = taps->stride,
-                                       .x = taps->planes[FILTER_PLANE_X],
-                                       .y = taps->planes[FILTER_PLANE_Y],
-                                       .z = taps->planes[FILTER_PLANE_Z],
-                                       .w = taps->planes[FILTER_PLANE_W],
-                                       .area = taps->planes[FILTER_PLANE_AREA]};
-    fast->columns = (struct sight_planes){.width = taps->height,
-                                          .height = taps->width,
-                                          .stride = stride,
-                                          .x = planes[0],
-                                          .y = planes[1],
-                                          .z = planes[2],
-                                          .w = planes[3],
-                                          .area = planes[4]};
-    return RESULT_OK;
-}
-
 /* --- sights --- */
 
 /* Whether the things that both pixels see shift by less than `limit` of the lobe's width from one to the other. */
@@ -279,67 +230,6 @@ static bool is_alike(const struct filter *filter, int x, int y, int u, int v, do
         return false;
     const struct shift shift = shift_between(filter, x, y, u, v);
     return shift.turn + shift.move * shift.near < limit / sqrt(filter_exponent_at(filter, x, y) + 1);
-}
-
-/* Takes the marched map over, and makes its coarser levels. The map is all hidden again. */
-static bool sight_keep(struct worker *worker, struct sight *sight, struct sight_extent extent)
-{
-    sight->left = extent.left / SIGHT_CELL * SIGHT_CELL;
-    sight->top = extent.top / SIGHT_CELL * SIGHT_CELL;
-    sight->width = (extent.right / SIGHT_CELL + 1) * SIGHT_CELL - sight->left;
-    sight->height = (extent.bottom / SIGHT_CELL + 1) * SIGHT_CELL - sight->top;
-    const size_t area = (size_t)sight->width * (size_t)sight->height;
-    if (2 * area > sight->capacity) {
-        free(sight->data);
-        sight->data = malloc(2 * area); /* 1 + 3/4 + 3/16 ... */
-        sight->capacity = sight->data ? 2 * area : 0;
-        if (!sight->data)
-            return false;
-    }
-    uint8_t *to = sight->data;
-    for (int y = 0; y < sight->height; y++) {
-        uint8_t *from = worker->map + (size_t)(sight->top + y) * (size_t)worker->map_width + sight->left;
-        memcpy(to + (size_t)y * (size_t)sight->width, from, (size_t)sight->width);
-        memset(from, SIGHT_HIDDEN, (size_t)sight->width);
-    }
-    sight->levels[0][0] = sight->levels[0][1] = sight->levels[0][2] = to;
-    to += area;
-    for (int k = 1; k < SIGHT_LEVELS; k++) {
-        for (int i = 0; i < 3; i++, to += area >> (2 * k))
-            sight->levels[k][i] = to;
-        worker->fast->filter->sight->reduce((const uint8_t *const *)sight->levels[k - 1], sight->width >> (k - 1),
-                                            sight->height >> (k - 1), sight->levels[k]);
-    }
-    return true;
-}
-
-static bool sight_make(struct worker *worker, struct sight *sight, int x, int y)
-{
-    const struct fast *fast = worker->fast;
-    const struct filter *filter = fast->filter;
-    const struct sight_kernel *kernel = filter->sight;
-    struct filter_lanes lanes = filter_lanes_empty(x, y);
-    struct sight_extent rows = {.left = x, .top = y, .right = x, .bottom = y}, columns = {y, x, y, x};
-    worker->map[(size_t)y * (size_t)worker->map_width + (size_t)x] = 0;
-    if (filter_lane_fill(filter, x, y, 0, &lanes)) {
-        struct sight_eye eye = {.blind = lanes.blind[0], .fade = lanes.fade[0], .step = lanes.step[0]};
-        for (int i = 0; i < 3; i++) {
-            eye.a[i] = lanes.a[i][0];
-            eye.direction[i] = lanes.direction[i][0];
-        }
-        const int limit = (int)filter->radius_limit_px, pitch = worker->map_width;
-        for (int step = -1; step <= 1; step += 2) {
-            kernel->march(&fast->rows, x, y, step, limit, &eye, worker->scratch, worker->map, 1, pitch, &rows);
-            kernel->march(&fast->columns, y, x, step, limit, &eye, worker->scratch, worker->map, pitch, 1, &columns);
-        }
-    }
-    struct sight_extent both = {.left = columns.top < rows.left ? columns.top : rows.left,
-                                .top = columns.left < rows.top ? columns.left : rows.top,
-                                .right = columns.bottom > rows.right ? columns.bottom : rows.right,
-                                .bottom = columns.right > rows.bottom ? columns.right : rows.bottom};
-    sight->x = x;
-    sight->y = y;
-    return sight_keep(worker, sight, both);
 }
 
 /* The sight of pixel (x, y), made or kept; NULL: no memory. */
@@ -356,7 +246,8 @@ static const struct sight *sight_of(struct worker *worker, int x, int y)
         if (sight->used < oldest->used)
             oldest = sight;
     }
-    oldest->used = sight_make(worker, oldest, x, y) ? worker->clock : 0;
+    const bool made = sight_make(&worker->fast->visibility, x, y, &worker->scratch, oldest);
+    oldest->used = made ? worker->clock : 0;
     worker->out_of_memory = worker->out_of_memory || !oldest->used;
     return oldest->used ? oldest : NULL;
 }
@@ -486,39 +377,44 @@ static double layer_weight(const struct block *block, const struct filter_node *
            fmax(square, 1 / FILTER_MOST_ENLARGED);
 }
 
-/* How a cell of level k is seen: the hidden share for each sight, how far its least and largest are apart, and whether
- * any of it is seen at all. */
+/* How a cell is seen: the hidden share for each sight, how far its least and largest are apart, and whether any of it
+ * is seen at all. */
 struct look {
     float hidden[SIGHTS_OF_GROUP];
     float range;
     bool visible;
+    bool seen;                           /* by a sight that isn't open */
+    unsigned char open[SIGHTS_OF_GROUP]; /* sights that don't see all of it alike */
+    int open_count;
 };
 
-static struct look look_at(const struct block *block, int k, int x, int y)
+static struct look look_from(const struct block *block)
 {
-    struct look look = {.visible = block->everything};
-    const int left = x << k, top = y << k, size = 1 << k;
-    int range = 0, least = SIGHT_HIDDEN;
-    for (int s = 0; s < block->group.sights; s++) {
-        const struct sight *sight = block->sights[s];
-        int mean = SIGHT_HIDDEN, low = SIGHT_HIDDEN, high = SIGHT_HIDDEN;
-        const bool outside = left >= sight->left + sight->width || top >= sight->top + sight->height ||
-                             left + size <= sight->left || top + size <= sight->top;
-        if (!outside && k < SIGHT_LEVELS) {
-            const size_t row = (size_t)(y - (sight->top >> k));
-            const size_t at = row * (size_t)(sight->width >> k) + (size_t)(x - (sight->left >> k));
-            mean = sight->levels[k][0][at];
-            low = sight->levels[k][1][at];
-            high = sight->levels[k][2][at];
-        } else if (!outside) {
-            low = 0;
-        }
-        look.hidden[s] = (float)mean / SIGHT_HIDDEN;
-        least = low < least ? low : least;
-        range = high - low > range ? high - low : range;
+    struct look look = {.seen = block->everything, .visible = block->everything, .open_count = block->group.sights};
+    for (int s = 0; s < block->group.sights; s++)
+        look.open[s] = (unsigned char)s;
+    return look;
+}
+
+/* How cell (x, y) of level k is seen, which is part of a cell that is seen as in `whole`. */
+static struct look look_at(const struct block *block, int k, int x, int y, const struct look *whole)
+{
+    struct look look = *whole;
+    int range = 0;
+    look.open_count = 0;
+    for (int i = 0; i < whole->open_count; i++) {
+        const unsigned char s = whole->open[i];
+        int share[3];
+        sight_share(block->sights[s], k, x, y, share);
+        look.hidden[s] = (float)share[0] / SIGHT_HIDDEN;
+        if (share[2] > share[1])
+            look.open[look.open_count++] = s;
+        else
+            look.seen = look.seen || share[1] < SIGHT_HIDDEN;
+        range = share[2] - share[1] > range ? share[2] - share[1] : range;
     }
     look.range = (float)range / SIGHT_HIDDEN;
-    look.visible = look.visible || least < SIGHT_HIDDEN;
+    look.visible = look.seen || look.open_count > 0;
     return look;
 }
 
@@ -540,7 +436,7 @@ static bool is_mixed(const struct fast *fast, const struct block *block, const s
 }
 
 /* Adds the nodes of a cell of level k, or of its parts. */
-static void cell_walk(struct worker *worker, const struct block *block, int k, int x, int y)
+static void cell_walk(struct worker *worker, const struct block *block, int k, int x, int y, const struct look *whole)
 {
     const struct fast *fast = worker->fast;
     const struct filter_cells *cells = &fast->cells;
@@ -556,7 +452,7 @@ static void cell_walk(struct worker *worker, const struct block *block, int k, i
                             : !filter_cell_of_pixel(fast->filter, x, y, &node);
     if (empty || worker->out_of_memory)
         return;
-    struct look look = look_at(block, k, x, y);
+    struct look look = look_at(block, k, x, y, whole);
     if (!look.visible && away > block->reach_px)
         return;
     if (!cell) {
@@ -567,7 +463,7 @@ static void cell_walk(struct worker *worker, const struct block *block, int k, i
     if (large || is_mixed(fast, block, cell, &look)) {
         for (int v = 2 * y; v < 2 * y + 2 && v < cells->height[k - 1]; v++)
             for (int u = 2 * x; u < 2 * x + 2 && u < cells->width[k - 1]; u++)
-                cell_walk(worker, block, k - 1, u, v);
+                cell_walk(worker, block, k - 1, u, v, &look);
         return;
     }
     for (int i = 0; i < 2; i++)
@@ -616,12 +512,10 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
     return any;
 }
 
-/* Whether things shift by little over a block of level k, the nearest of them at 1/r' = near. */
-static bool is_smooth(const struct fast *fast, const struct rate *rate, int k, float near)
+/* What brings a shift from a pixel to the next to that over a block of level k, of how far things may. */
+static float shift_scale(const struct fast *fast, const struct rate *rate, int k)
 {
-    const float size = (float)(SIDE << k);
-    return rate->phong_low == rate->phong_high &&
-           (rate->turn + rate->move * near) * size * sqrtf(fmaxf(rate->phong_high, 1)) <= fast->settings->smooth;
+    return (float)(SIDE << k) * sqrtf(fmaxf(rate->phong_high, 1)) / fast->settings->smooth;
 }
 
 /* Computes the 16 pixels of a block of level k. False: what it sees is too near for so large a block. */
@@ -634,22 +528,26 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
     struct filter_sums pool = {0};
     struct filter_help help[LANES] = {{0}};
     bool any_help = false;
-    float near = 0;
+    float unsteady = 0;
     if (!block_fill(fast, x, y, 1 << k, &block))
         return true;
     if (!block.everything)
         sights_choose(worker, &block, SIDE << k);
     worker->count = 0;
+    const struct look whole = look_from(&block);
     const int top = CELL_LEVELS - 1;
     for (int v = 0; v < fast->cells.height[top] && !worker->out_of_memory; v++)
         for (int u = 0; u < fast->cells.width[top]; u++)
-            cell_walk(worker, &block, top, u, v);
+            cell_walk(worker, &block, top, u, v, &whole);
     if (worker->out_of_memory)
         return true;
+    block.group.turn = rate->turn * shift_scale(fast, rate, k);
+    block.group.move = rate->move * shift_scale(fast, rate, k);
     filter->sight->see(worker->nodes, worker->hidden, worker->count, &block.group, &seen);
     for (int l = 0; l < LANES; l++)
-        near = fmaxf(near, block.group.nearest[l]);
-    if (k > 0 && !is_smooth(fast, rate, k, near))
+        if (block.used[l] && seen.value[FILTER_MOMENT_1][l] > 0)
+            unsteady = fmaxf(unsteady, block.group.unsteady[l] / (float)seen.value[FILTER_MOMENT_1][l]);
+    if (k > 0 && unsteady > fast->settings->unsteady)
         return false;
     for (int l = 0; l < LANES; l++) {
         if (!block.used[l])
@@ -714,7 +612,8 @@ static void block_do(struct worker *worker, int x, int y, int k)
         block_exact(worker, x, y);
         return;
     }
-    const bool fine = rate.phong_high <= phong_most && (k == 0 || is_smooth(fast, &rate, k, 0));
+    const bool even = rate.phong_low == rate.phong_high && rate.turn * shift_scale(fast, &rate, k) <= 0.75f;
+    const bool fine = rate.phong_high <= phong_most && (k == 0 || even);
     if ((fine && block_compute(worker, &rate, x, y, k)) || k == 0) {
         for (int v = y; v < y + size && v < taps->height; v++)
             memset(fast->apart + pixel_of(fast, x, v), k, (size_t)(x + size < taps->width ? size : taps->width - x));
@@ -728,28 +627,21 @@ static void block_do(struct worker *worker, int x, int y, int k)
 static void rows_do(void *context, int first, int end)
 {
     struct fast *fast = context;
-    const int width = fast->filter->taps.width, height = fast->filter->taps.height;
-    const int map_width = (width / SIGHT_CELL + 1) * SIGHT_CELL, map_height = (height / SIGHT_CELL + 1) * SIGHT_CELL;
-    const size_t map = (size_t)map_width * (size_t)map_height;
-    const int kept = (int)(sights_bytes / (2 * (double)map));
-    struct worker worker = {.fast = fast, .map_width = map_width};
+    const int width = fast->filter->taps.width;
+    const int kept = (int)(sights_bytes / (2 * (double)width * (double)fast->filter->taps.height));
+    struct worker worker = {.fast = fast};
     worker.sight_count = kept > SIGHTS ? SIGHTS : kept < SIGHTS_OF_GROUP ? SIGHTS_OF_GROUP : kept;
-    worker.map = malloc(map);
-    worker.scratch = malloc(SIGHT_SCRATCH(width > height ? width : height) * sizeof *worker.scratch);
     worker.exact = aligned_alloc(64, FILTER_SEE_SCRATCH(width));
-    worker.out_of_memory = !worker.map || !worker.scratch || !worker.exact;
-    if (worker.map)
-        memset(worker.map, SIGHT_HIDDEN, map);
+    worker.out_of_memory = !sight_scratch_make(&fast->visibility, &worker.scratch) || !worker.exact;
     for (int row = first; row < end; row++)
         for (int x = 0; x < width; x += LARGEST)
             block_do(&worker, x, row * LARGEST, BLOCK_LEVELS - 1);
     for (int i = 0; i < SIGHTS; i++)
-        free(worker.sights[i].data);
+        sight_free(&worker.sights[i]);
     free(worker.hidden);
     free(worker.nodes);
     free(worker.exact);
-    free(worker.scratch);
-    free(worker.map);
+    sight_scratch_free(&worker.scratch);
     if (worker.out_of_memory)
         atomic_store(&fast->filter->out_of_memory, true);
 }
@@ -799,7 +691,7 @@ void filter_fast_free(struct fast *fast)
     for (int k = 0; k < BLOCK_LEVELS; k++)
         free(fast->rates[k]);
     filter_cells_free(&fast->cells);
-    free(fast->transposed);
+    filter_visibility_free(&fast->visibility);
     free(fast);
 }
 
@@ -814,7 +706,7 @@ static enum result fast_build(struct filter *filter, struct error *err)
     fast->filter = filter;
     enum result result = filter_cells_build(filter, &fast->cells, err);
     if (result == RESULT_OK)
-        result = columns_build(fast, err);
+        result = filter_visibility_build(filter, &fast->visibility, err);
     if (result == RESULT_OK)
         result = rates_build(fast, err);
     if (result == RESULT_OK)

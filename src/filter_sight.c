@@ -1,7 +1,7 @@
 /* What one pixel's a sees, by marching outward over the picture, and sums over clusters of taps.
  *
  * In a march the taps of one row are the lanes: a way to them comes from the row before alone, for they are no farther
- * from the eye's column than from its row. In the sums the lanes are output pixels, as in filter_kernel.c.
+ * from the eye's column than from its row. How much of each tap's own share is seen is found tile by tile, before. In the sums the lanes are output pixels, as in filter_kernel.c.
  */
 #include "filter_sight.h"
 
@@ -10,14 +10,10 @@
 #include <float.h>
 #include <math.h>
 
-enum { LANES = FILTER_LANES };
+enum { LANES = FILTER_LANES, STRIP = SIGHT_MARGIN };
 
 /* See FILTER_PLANE_NEAREST: in units of r'^2. */
 static const float nearest_square = (float)(1 / FILTER_MOST_ENLARGED);
-
-/* Weight and share from which on a thing counts as seen nearby. */
-#define NEAR_WEIGHT 0.02f
-#define NEAR_SHARE 0.1f
 
 ALWAYS_INLINE float clamp_share(float share)
 {
@@ -25,106 +21,222 @@ ALWAYS_INLINE float clamp_share(float share)
     return share > 0.0f ? share : 0.0f;
 }
 
-/* LANES taps of one row from column dx off the eye's on; `state` is the largest tan^2 on the way to each and at it, of
- * the row before and of this one. */
-ALWAYS_INLINE void march_lanes(const struct sight_planes *planes, size_t tap, const struct sight_eye *eye, int dx,
-                               float away, const float *restrict before, float *restrict state,
-                               uint8_t *restrict hidden)
+/* How much of a tap's own share is not seen, of SIGHT_HIDDEN: by where it lies, or where none is by `far`, tan^2. */
+ALWAYS_INLINE void own_lanes(const float *px, const float *py, const float *pz, const float *pw, const float *is_tap,
+                             const float *far, const struct sight_eye *eye, float *restrict along,
+                             uint8_t *restrict own)
 {
-    const float *px = planes->x + tap, *py = planes->y + tap, *pz = planes->z + tap, *pw = planes->w + tap;
-    const float *area = planes->area + tap;
     const float ax = eye->a[0], ay = eye->a[1], az = eye->a[2];
     const float ex = eye->direction[0], ey = eye->direction[1], ez = eye->direction[2];
-    const float blind = eye->blind, fade = eye->fade, step = eye->step;
-    _Alignas(64) float share[LANES], largest[LANES];
+    const float blind = eye->blind, fade = eye->fade;
+    _Alignas(64) float hidden[LANES];
+    _Alignas(16) uint8_t bytes[LANES];
     for (int l = 0; l < LANES; l++) {
-        int column = dx + l;
-        float straight = before[l], left = before[l - 1], right = before[l + 1];
-        float inward = column < 0 ? right : column > 0 ? left : straight;
-        float way = inward < straight ? inward : straight;
-        float vx = px[l] - pw[l] * ax, vy = py[l] - pw[l] * ay, vz = pz[l] - pw[l] * az;
+        float vx = px[l] - pw[l] * ax, vy = py[l] - pw[l] * ay, vz = pz[l] - pw[l] * az, away = far[l];
         float c = vx * ex + vy * ey + vz * ez, cc = c * c;
         float t = (vx * vx + vy * vy + vz * vz - cc) / cc;
         t = t < 0x1p100f ? t : 0x1p100f; /* also NaN */
         t = c > 0.0f ? t : 0x1p100f;
-        float own = clamp_share((blind - t) * fade);
-        float far = step * ((float)column * (float)column + away);
-        t = area[l] > 0.0f ? t : far;
-        own = area[l] > 0.0f && way < INFINITY ? own : 1.0f;
-        float lost = own - clamp_share((blind - way) * fade);
-        lost = lost > 0.0f ? lost : 0.0f;
-        t = t > way ? t : way;
-        largest[l] = t <= blind ? t : INFINITY;
-        share[l] = lost * SIGHT_HIDDEN + 0.5f;
+        t = is_tap[l] > 0.0f ? t : away;
+        along[l] = c;
+        hidden[l] = SIGHT_HIDDEN + 0.5f - SIGHT_HIDDEN * clamp_share((blind - t) * fade);
     }
-    memcpy(state, largest, sizeof largest);
     for (int l = 0; l < LANES; l++)
-        hidden[l] = (uint8_t)(int)share[l];
+        bytes[l] = (uint8_t)(int32_t)hidden[l];
+    memcpy(own, bytes, sizeof bytes);
 }
 
-static void march(const struct sight_planes *planes, int x, int y, int step, int limit, const struct sight_eye *eye,
-                  float *scratch, uint8_t *hidden, ptrdiff_t column, ptrdiff_t row, struct sight_extent *extent)
+/* The same of a tile whose first pixel is dx, dy off the eye's. By its cells, where no tap's share is off by more than
+ * a hundredth for that. */
+static void own_tile(const struct sight_tile *tile, const struct sight_taps *taps, int dx, int dy,
+                     const struct sight_eye *eye, uint8_t own[SIGHT_TILE_AREA])
 {
-    /* Indexed by dx; beyond the columns of a row they are infinite as far as the next row's lanes look. */
-    float *before = scratch + SIGHT_MARGIN + x, *state = before + planes->width + 2 * SIGHT_MARGIN;
-    int end = step < 0 ? y : planes->height - 1 - y, first = 0, last = 0;
-    for (int i = -LANES - 2; i <= LANES + 2; i++)
-        before[i] = INFINITY;
-    before[0] = 0;
-    for (int k = 1; k <= end && k <= limit && first <= last; k++) {
-        int live = first - 1 > -k ? first - 1 : -k, live_end = last + 1 < k ? last + 1 : k, v = y + step * k;
-        first = live > -x ? live : -x;
-        last = live_end < planes->width - 1 - x ? live_end : planes->width - 1 - x;
-        for (int dx = first; dx <= last; dx += LANES) {
-            _Alignas(64) uint8_t shares[LANES];
-            size_t tap = (size_t)v * planes->stride + (size_t)(x + dx + FILTER_BORDER);
-            march_lanes(planes, tap, eye, dx, (float)k * (float)k, before + dx, state + dx, shares);
-            uint8_t *to = hidden + (x + dx) * column + v * row;
-            const int count = last - dx + 1 < LANES ? last - dx + 1 : LANES;
-            if (column == 1)
-                memcpy(to, shares, (size_t)count);
-            for (int l = 0; l < count && column != 1; l++)
-                to[l * column] = shares[l];
+    static const float all[LANES] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, none[LANES] = {0};
+    _Alignas(64) float far[LANES], along[LANES], columns[LANES];
+    _Alignas(16) uint8_t cells[LANES];
+    if (tile->off < INFINITY) {
+        uint32_t least = UINT32_MAX; /* positive floats are in the order of their bits */
+        for (int l = 0; l < LANES; l++) {
+            const float right = (float)(dx + l % 4 * 4) + 1.5f, down = (float)(dy + l / 4 * 4) + 1.5f;
+            far[l] = eye->step * (right * right + down * down);
         }
-        state[first - 1] = state[first - 2] = INFINITY;
-        for (int i = 1; i <= LANES + 2; i++)
-            state[last + i] = INFINITY;
-        extent->left = x + first < extent->left ? x + first : extent->left;
-        extent->right = x + last > extent->right ? x + last : extent->right;
-        extent->top = v < extent->top ? v : extent->top;
-        extent->bottom = v > extent->bottom ? v : extent->bottom;
-        while (first <= last && !(state[first] < INFINITY))
+        own_lanes(tile->cells[0], tile->cells[1], tile->cells[2], tile->cells[3], tile->empty ? none : all, far, eye,
+                  along, cells);
+        for (int l = 0; l < LANES; l++)
+            least = bits_of(fabsf(along[l])) < least ? bits_of(fabsf(along[l])) : least;
+        if (tile->empty || tile->off * eye->steepest <= 0.01f * float_of(least)) {
+            for (int i = 0; i < 4; i++)
+                for (int r = 0; r < 4; r++)
+                    for (int j = 0; j < 4; j++)
+                        memset(own + (4 * i + r) * SIGHT_TILE + 4 * j, cells[4 * i + j], 4);
+            return;
+        }
+    }
+    for (int l = 0; l < LANES; l++)
+        columns[l] = (float)((dx + l) * (dx + l));
+    for (int r = 0; r < SIGHT_TILE; r++) {
+        const int i = r * SIGHT_TILE;
+        const float row = (float)((dy + r) * (dy + r));
+        for (int l = 0; l < LANES; l++)
+            far[l] = eye->step * (columns[l] + row);
+        own_lanes(taps->planes[0] + i, taps->planes[1] + i, taps->planes[2] + i, taps->planes[3] + i,
+                  taps->planes[4] + i, far, eye, along, own + i);
+    }
+}
+
+/* STRIP columns of one row: what is hidden on the way to each and at it, from the row before's, of which `inward` is
+ * one column nearer to the eye's; and what that hides of it. A difference of one is rounding. */
+ALWAYS_INLINE void march_strip(const uint8_t *before, const uint8_t *inward, const uint8_t *own,
+                               uint8_t *restrict state, uint8_t *restrict hidden)
+{
+    for (int i = 0; i < STRIP; i++) {
+        uint8_t way = before[i] < inward[i] ? before[i] : inward[i];
+        uint8_t most = way > own[i] ? way : own[i];
+        uint8_t lost = (uint8_t)(most - own[i]);
+        lost = lost > 1 ? lost : 0;
+        state[i] = most;
+        hidden[i] = way == SIGHT_HIDDEN ? SIGHT_HIDDEN : lost;
+    }
+}
+
+/* Transposes 16 x 16 bytes: its index of 8 bits is turned by four, one at a time. */
+static void transpose(uint8_t bytes[SIGHT_TILE_AREA])
+{
+    _Alignas(64) uint8_t turned[SIGHT_TILE_AREA];
+    uint8_t *from = bytes, *to = turned;
+    for (int pass = 0; pass < 4; pass++) {
+        uint8_t *restrict out = to;
+        for (int i = 0; i < SIGHT_TILE_AREA / 2; i++) {
+            out[2 * i] = from[i];
+            out[2 * i + 1] = from[i + SIGHT_TILE_AREA / 2];
+        }
+        to = from;
+        from = out;
+    }
+}
+
+static void copy_rows(uint8_t *to, size_t to_pitch, const uint8_t *from, size_t from_pitch)
+{
+    for (int r = 0; r < SIGHT_TILE; r++)
+        memcpy(to + (size_t)r * to_pitch, from + (size_t)r * from_pitch, SIGHT_TILE);
+}
+
+/* Whether nothing is seen on the way into the tile whose first column is at `before`, nor into those beside it. */
+static bool is_dark(const uint8_t *before)
+{
+    uint8_t least = SIGHT_HIDDEN;
+    for (int i = -SIGHT_TILE; i < 2 * SIGHT_TILE; i++)
+        least = before[i] < least ? before[i] : least;
+    return least == SIGHT_HIDDEN;
+}
+
+static void march(const struct sight_field *field, int x, int y, int step, int limit, const struct sight_eye *eye,
+                  uint8_t *scratch, uint8_t *map, struct sight_extent *extent)
+{
+    /* By columns. All is hidden in `before` and `state` beyond the tiles of a band, as far as a strip reaches. */
+    const size_t pitch = (size_t)field->width + 3 * SIGHT_MARGIN;
+    uint8_t *before = scratch + SIGHT_MARGIN, *state = before + pitch;
+    uint8_t *own = state + pitch, *hidden = own + SIGHT_TILE * pitch;
+    const int rows = step < 0 ? y : field->height - 1 - y, end = rows < limit ? rows : limit;
+    int first = x, last = x; /* columns that are seen of the row before */
+    memset(scratch, SIGHT_HIDDEN, (2 + 2 * SIGHT_TILE) * pitch);
+    before[x] = 0;
+    for (int k = 1; k <= end && first <= last;) {
+        const int band = (y + step * k) / SIGHT_TILE, top = band * SIGHT_TILE;
+        const int in_band = step > 0 ? top + SIGHT_TILE - (y + k) : y - k - top + 1;
+        const int next = k + in_band <= end ? k + in_band : end + 1;
+        const int from = first < next - k ? 0 : (first - (next - k)) / SIGHT_TILE;
+        const int to = (last + next - k < field->width ? last + next - k : field->width - 1) / SIGHT_TILE;
+        const int left = from * SIGHT_TILE, right = (to + 1) * SIGHT_TILE;
+        for (int i = 1; i <= SIGHT_MARGIN; i++)
+            before[left - i] = state[left - i] = before[right + i - 1] = state[right + i - 1] = SIGHT_HIDDEN;
+        for (int tile = from; tile <= to; tile++) {
+            const ptrdiff_t index = band * field->row + tile * field->column;
+            const int across = tile * SIGHT_TILE - x, down = top - y;
+            _Alignas(64) uint8_t shares[SIGHT_TILE_AREA];
+            if (is_dark(before + tile * SIGHT_TILE))
+                memset(shares, SIGHT_HIDDEN, sizeof shares);
+            else
+                own_tile(&field->tiles[index], &field->taps[index], field->turned ? down : across,
+                         field->turned ? across : down, eye, shares);
+            if (field->turned)
+                transpose(shares);
+            copy_rows(own + tile * SIGHT_TILE, pitch, shares, SIGHT_TILE);
+        }
+        for (; k < next; k++) {
+            const size_t at = (size_t)(y + step * k - top) * pitch;
+            for (int i = left; i < x; i += STRIP)
+                march_strip(before + i, before + i + 1, own + at + i, state + i, hidden + at + i);
+            march_strip(before + x, before + x, own + at + x, state + x, hidden + at + x);
+            for (int i = x + 1; i < right; i += STRIP)
+                march_strip(before + i, before + i - 1, own + at + i, state + i, hidden + at + i);
+            uint8_t *swap = before;
+            before = state;
+            state = swap;
+        }
+        for (int tile = from; tile <= to; tile++) {
+            uint8_t *shares = map + (band * field->row + tile * field->column) * SIGHT_TILE_AREA;
+            _Alignas(64) uint8_t found[SIGHT_TILE_AREA];
+            copy_rows(found, SIGHT_TILE, hidden + tile * SIGHT_TILE, pitch);
+            if (field->turned)
+                transpose(found);
+            for (int i = 0; i < SIGHT_TILE_AREA; i++)
+                shares[i] = found[i] < shares[i] ? found[i] : shares[i];
+        }
+        for (first = left; first < right && before[first] == SIGHT_HIDDEN;)
             first++;
-        while (first <= last && !(state[last] < INFINITY))
+        for (last = right - 1; last >= first && before[last] == SIGHT_HIDDEN;)
             last--;
-        float *swap = before;
-        before = state;
-        state = swap;
+        extent->left = from < extent->left ? from : extent->left;
+        extent->right = to > extent->right ? to : extent->right;
+        extent->top = band < extent->top ? band : extent->top;
+        extent->bottom = band > extent->bottom ? band : extent->bottom;
     }
 }
 
-/* Two rows to one of half the width. */
-ALWAYS_INLINE void reduce_rows(const uint8_t *mean, const uint8_t *low, const uint8_t *high, int width,
-                               uint8_t *restrict means, uint8_t *restrict lows, uint8_t *restrict highs)
+/* A square of 2 size x 2 size shares to one of half its width: means, least and largest of 2 x 2. */
+ALWAYS_INLINE void halve(const uint8_t *mean, const uint8_t *low, const uint8_t *high, int size,
+                         uint8_t *restrict means, uint8_t *restrict lows, uint8_t *restrict highs)
 {
-    for (int x = 0; x < width / 2; x++) {
-        int i = 2 * x, j = i + width;
-        uint8_t low_above = low[i] < low[i + 1] ? low[i] : low[i + 1];
-        uint8_t low_below = low[j] < low[j + 1] ? low[j] : low[j + 1];
-        uint8_t high_above = high[i] > high[i + 1] ? high[i] : high[i + 1];
-        uint8_t high_below = high[j] > high[j + 1] ? high[j] : high[j + 1];
-        means[x] = (uint8_t)((mean[i] + mean[i + 1] + mean[j] + mean[j + 1] + 2) >> 2);
-        lows[x] = low_above < low_below ? low_above : low_below;
-        highs[x] = high_above > high_below ? high_above : high_below;
+    _Alignas(64) uint16_t sum[SIGHT_TILE_AREA / 2];
+    _Alignas(64) uint8_t least[SIGHT_TILE_AREA / 2], most[SIGHT_TILE_AREA / 2];
+    for (int y = 0; y < size; y++)
+        for (int x = 0; x < 2 * size; x++) {
+            const int i = 4 * y * size + x, j = i + 2 * size, to = 2 * y * size + x;
+            sum[to] = (uint16_t)(mean[i] + mean[j]);
+            least[to] = low[i] < low[j] ? low[i] : low[j];
+            most[to] = high[i] > high[j] ? high[i] : high[j];
+        }
+    for (int i = 0; i < size * size; i++) {
+        means[i] = (uint8_t)((sum[2 * i] + sum[2 * i + 1] + 2) >> 2);
+        lows[i] = least[2 * i] < least[2 * i + 1] ? least[2 * i] : least[2 * i + 1];
+        highs[i] = most[2 * i] > most[2 * i + 1] ? most[2 * i] : most[2 * i + 1];
     }
 }
 
-static void reduce(const uint8_t *const from[3], int width, int height, uint8_t *const to[3])
+static enum sight_kind pack(uint8_t map[SIGHT_TILE_AREA], uint8_t levels[SIGHT_PACKED])
 {
-    for (int y = 0; y < height / 2; y++) {
-        const size_t above = 2 * (size_t)y * (size_t)width, row = (size_t)y * (size_t)(width / 2);
-        reduce_rows(from[0] + above, from[1] + above, from[2] + above, width, to[0] + row, to[1] + row, to[2] + row);
+    uint8_t least = SIGHT_HIDDEN, most = 0;
+    for (int i = 0; i < SIGHT_TILE_AREA; i++) {
+        least = map[i] < least ? map[i] : least;
+        most = map[i] > most ? map[i] : most;
     }
+    if (least == SIGHT_HIDDEN)
+        return SIGHT_ALL_HIDDEN;
+    if (most > 0) {
+        const uint8_t *mean = levels, *low = levels, *high = levels;
+        uint8_t *to = levels + SIGHT_TILE_AREA;
+        memcpy(levels, map, SIGHT_TILE_AREA);
+        halve(mean, low, high, 8, to, to + 64, to + 128);
+        mean = to, low = to + 64, high = to + 128, to += 192;
+        halve(mean, low, high, 4, to, to + 16, to + 32);
+        mean = to, low = to + 16, high = to + 32, to += 48;
+        halve(mean, low, high, 2, to, to + 4, to + 8);
+        mean = to, low = to + 4, high = to + 8, to += 12;
+        halve(mean, low, high, 1, to, to + 1, to + 2);
+    }
+    memset(map, SIGHT_HIDDEN, SIGHT_TILE_AREA);
+    return most > 0 ? SIGHT_MIXED : SIGHT_ALL_SEEN;
 }
 
 /* Where a node lies from lane l, in units of r': along the direction, and off it. */
@@ -151,7 +263,7 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
                             float (*restrict sums)[LANES], struct filter_moments *restrict range)
 {
     const struct filter_lanes *lanes = &group->lanes;
-    _Alignas(64) float lost[LANES] = {0}, weight[LANES], u[LANES], v[LANES], near[LANES];
+    _Alignas(64) float lost[LANES] = {0}, weight[LANES], u[LANES], v[LANES];
     for (int s = 0; s < group->sights; s++)
         for (int l = 0; l < LANES; l++)
             lost[l] += group->share[s][l] * hidden[s];
@@ -166,7 +278,6 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
         float share = (lanes->blind[l] - t) * lanes->fade[l];
         share = (share < 1.0f ? share : 1.0f) - lost[l];
         share = share > 0.0f ? share : 0.0f;
-        near[l] = f > NEAR_WEIGHT && share > NEAR_SHARE ? node->w : 0.0f;
         weight[l] = f * share * enlarged(node, square);
         float scale = c / (square + FLT_MIN);
         u[l] = scale * (place.x * lanes->across[0][0][l] + place.y * lanes->across[0][1][l] +
@@ -174,11 +285,12 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
         v[l] = scale * (place.x * lanes->across[1][0][l] + place.y * lanes->across[1][1][l] +
                         place.z * lanes->across[1][2][l]);
     }
-    for (int l = 0; l < LANES; l++)
-        group->nearest[l] = near[l] > group->nearest[l] ? near[l] : group->nearest[l];
     const float solid = node->solid, square = node->square;
+    const float unsteady = clamp_share(group->turn + group->move * node->w - 1);
     for (int l = 0; l < LANES; l++)
         weight[l] *= solid;
+    for (int l = 0; l < LANES; l++)
+        group->unsteady[l] += weight[l] * unsteady;
     for (int i = 0; i < 3; i++) {
         const float radiance = node->radiance[i];
         for (int l = 0; l < LANES; l++) {
@@ -210,7 +322,7 @@ static void see(const struct filter_node *nodes, const float *hidden, int count,
                 struct filter_moments *sums)
 {
     memset(sums, 0, sizeof *sums);
-    memset(group->nearest, 0, sizeof group->nearest);
+    memset(group->unsteady, 0, sizeof group->unsteady);
     for (int i = 0; i < 3; i++)
         for (int l = 0; l < LANES; l++) {
             sums->low[i][l] = INFINITY;
@@ -262,4 +374,4 @@ static void pool(const struct filter_node *nodes, int count, const struct filter
 }
 
 const struct sight_kernel CONCATENATE(sight_kernel_, FILTER_KERNEL_ISA) = {
-    .march = march, .reduce = reduce, .see = see, .pool = pool};
+    .march = march, .pack = pack, .see = see, .pool = pool};

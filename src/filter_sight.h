@@ -12,39 +12,60 @@
 enum {
     SIGHTS_OF_GROUP = 4 + FILTER_LANES, /* that its pixels may use: 4 corners and one for each pixel */
     SIGHT_HIDDEN = 255,                 /* all of it */
+    SIGHT_TILE = 16,                    /* pixels across a tile; a cell of it is 4 across */
+    SIGHT_TILE_AREA = SIGHT_TILE * SIGHT_TILE,
+    SIGHT_PACKED = 512,                 /* bytes of a tile's levels */
     SIGHT_MARGIN = 64
 };
 
-/* Floats of scratch of sight_march for pictures of `longest` pixels on their longer side. */
-#define SIGHT_SCRATCH(longest) (2 * ((size_t)(longest) + 3 * SIGHT_MARGIN))
+/* Bytes of scratch of sight_march for pictures of `longest` pixels on their longer side. */
+#define SIGHT_SCRATCH(longest) ((2 + 2 * SIGHT_TILE) * ((size_t)(longest) + 3 * SIGHT_MARGIN))
 
-/* The taps by rows of the picture, or by columns (width and height exchanged): planes as in struct filter_taps. */
-struct sight_planes {
-    int width, height;
-    size_t stride;
-    const float *x, *y, *z, *w, *area;
+/* 16 x 16 taps: x, y, z, w and area as in struct filter_taps, 0 beyond the picture. */
+struct sight_taps {
+    float planes[5][SIGHT_TILE_AREA];
+};
+
+/* The means of 4 x 4 of them each. */
+struct sight_tile {
+    float cells[4][FILTER_LANES];
+    float off;  /* no tap is farther from where its cell's mean and the tile's slope put it; INFINITY: not all are taps */
+    bool empty; /* none is a tap */
+};
+
+/* The picture by rows, or by columns (`turned`: all that is of columns and rows is exchanged). */
+struct sight_field {
+    const struct sight_tile *tiles;
+    const struct sight_taps *taps;
+    int width, height;     /* pixels */
+    ptrdiff_t column, row; /* from a tile to the next one */
+    bool turned;
 };
 
 /* The pixel that looks: its a, unit direction, and what struct filter_lanes says of them. */
 struct sight_eye {
     float a[3], direction[3], blind, fade, step;
+    float steepest; /* by how much the share that is seen changes with theta at most, per radian */
 };
 
+/* Tiles. */
 struct sight_extent {
     int left, top, right, bottom; /* inclusive */
 };
 
-/* The share of each tap that is hidden from the eye at pixel (x, y) of `planes`, 0 to SIGHT_HIDDEN, by the rule of
+/* The share of each tap that is hidden from the eye at pixel (x, y) of the field, 0 to SIGHT_HIDDEN, by the rule of
  * filter_see(): less than would be seen of it if all on the way were at its own angle. One of four wedges of the
  * picture: rows beyond y in the direction of `step` (1 or -1), as far from column x as from row y, to `limit` pixels
- * away. The share of column u and row v is written to hidden[u * column + v * row]; what no way reaches is left as it
- * is. *extent grows by what was written. scratch: SIGHT_SCRATCH(longest) floats. */
-typedef void sight_march(const struct sight_planes *planes, int x, int y, int step, int limit,
-                         const struct sight_eye *eye, float *scratch, uint8_t *hidden, ptrdiff_t column, ptrdiff_t row,
-                         struct sight_extent *extent);
+ * away. Where the taps of a tile lie as good as in a plane, those of a cell are taken to be at one angle. The shares
+ * go to the map, SIGHT_TILE_AREA of each tile by rows of the picture, where they are less than what is there. *extent
+ * grows by what was written. scratch: SIGHT_SCRATCH(longest) bytes. */
+typedef void sight_march(const struct sight_field *field, int x, int y, int step, int limit,
+                         const struct sight_eye *eye, uint8_t *scratch, uint8_t *map, struct sight_extent *extent);
 
-/* The next coarser level of three maps of width x height (both even): means, least and largest of 2 x 2. */
-typedef void sight_reduce(const uint8_t *const from[3], int width, int height, uint8_t *const to[3]);
+/* A tile's shares, taken from the map, where all is hidden again: SEEN and HIDDEN whole, or its levels from single
+ * pixels to the whole tile: first means, from 2 x 2 pixels on also least and largest. */
+enum sight_kind { SIGHT_MIXED, SIGHT_ALL_SEEN, SIGHT_ALL_HIDDEN };
+typedef enum sight_kind sight_pack(uint8_t map[SIGHT_TILE_AREA], uint8_t levels[SIGHT_PACKED]);
 
 /* A cluster of taps. With r' the distance of each from its own a', x, y, z, w are the means of b'/r' (W = 1) or of the
  * direction (W = 0), and of W/r': its direction from any a is (x, y, z) - w a, in units of r'. */
@@ -66,7 +87,8 @@ struct filter_group {
     float column[FILTER_LANES], row[FILTER_LANES];
     int sights;
     float share[SIGHTS_OF_GROUP][FILTER_LANES];
-    float nearest[FILTER_LANES]; /* set by nodes_see: 1/r' of the nearest thing that counts, 0 where none does */
+    float turn, move; /* how far the direction and a shift over the group, of how far things may */
+    float unsteady[FILTER_LANES]; /* set by nodes_see: the share of what is seen that shifts farther, whole from twice on */
 };
 
 /* The sums of filter_see() over nodes in place of taps; hidden: SIGHTS_OF_GROUP shares, 0 to 1, of each node. */
@@ -79,7 +101,7 @@ typedef void nodes_pool(const struct filter_node *nodes, int count, const struct
 
 struct sight_kernel {
     sight_march *march;
-    sight_reduce *reduce;
+    sight_pack *pack;
     nodes_see *see;
     nodes_pool *pool;
 };

@@ -1,0 +1,218 @@
+/* Tiles of taps, and the four marches of sight_march() from a pixel put together. */
+#include "filter_visibility.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    TILE_LEVEL = 4, /* a tile is 2^4 pixels across */
+    TILE_SEEN = -1,
+    TILE_HIDDEN = -2
+};
+
+/* The largest distance of a tap from the plane through its cell's mean with the tile's slope. */
+static float tile_off(const struct sight_tile *tile, const struct sight_taps *taps)
+{
+    double off[SIGHT_TILE_AREA] = {0}, most = 0;
+    for (int i = 0; i < 4; i++) {
+        double right = 0, down = 0, squares = 0;
+        for (int t = 0; t < SIGHT_TILE_AREA; t++) {
+            const double x = t % SIGHT_TILE - (SIGHT_TILE - 1) / 2., y = t / SIGHT_TILE - (SIGHT_TILE - 1) / 2.;
+            right += x * (double)taps->planes[i][t];
+            down += y * (double)taps->planes[i][t];
+            squares += x * x;
+        }
+        for (int t = 0; t < SIGHT_TILE_AREA; t++) {
+            const double x = t % 4 - 1.5, y = t / SIGHT_TILE % 4 - 1.5;
+            const double mean = (double)tile->cells[i][t / (4 * SIGHT_TILE) * 4 + t % SIGHT_TILE / 4];
+            const double error = (double)taps->planes[i][t] - mean - (x * right + y * down) / squares;
+            off[t] += error * error;
+            most = fmax(most, off[t]);
+        }
+    }
+    return (float)sqrt(most);
+}
+
+static void tile_fill(const struct filter *filter, int left, int top, struct sight_tile *tile, struct sight_taps *taps)
+{
+    static const enum filter_plane from[] = {FILTER_PLANE_X, FILTER_PLANE_Y, FILTER_PLANE_Z, FILTER_PLANE_W,
+                                             FILTER_PLANE_AREA};
+    int count = 0;
+    *tile = (struct sight_tile){.off = INFINITY};
+    *taps = (struct sight_taps){0};
+    for (int t = 0; t < SIGHT_TILE_AREA; t++) {
+        const int x = left + t % SIGHT_TILE, y = top + t / SIGHT_TILE;
+        if (!filter_is_inside(filter, x, y))
+            continue;
+        for (int i = 0; i < 5; i++)
+            taps->planes[i][t] = *filter_tap_at(filter, from[i], x, y);
+        for (int i = 0; i < 4; i++)
+            tile->cells[i][t / (4 * SIGHT_TILE) * 4 + t % SIGHT_TILE / 4] += taps->planes[i][t] / 16;
+        count += taps->planes[4][t] > 0;
+    }
+    tile->empty = count == 0;
+    if (count == 0 || count == SIGHT_TILE_AREA)
+        tile->off = tile_off(tile, taps);
+}
+
+enum result filter_visibility_build(const struct filter *filter, struct filter_visibility *visibility,
+                                    struct error *err)
+{
+    const int width = filter->taps.width, height = filter->taps.height;
+    const int across = (width + SIGHT_TILE - 1) / SIGHT_TILE, down = (height + SIGHT_TILE - 1) / SIGHT_TILE;
+    const size_t count = (size_t)across * (size_t)down;
+    struct sight_tile *tiles = malloc(count * sizeof *tiles);
+    struct sight_taps *taps = malloc(count * sizeof *taps);
+    *visibility = (struct filter_visibility){.filter = filter,
+                                             .tiles = tiles,
+                                             .taps = taps,
+                                             .across = across,
+                                             .down = down,
+                                             .rows = {tiles, taps, width, height, 1, across, false},
+                                             .columns = {tiles, taps, height, width, across, 1, true}};
+    if (!tiles || !taps)
+        return error_memory(err, (double)count * (double)(sizeof *tiles + sizeof *taps));
+    for (int i = 0; i < across * down; i++)
+        tile_fill(filter, i % across * SIGHT_TILE, i / across * SIGHT_TILE, &tiles[i], &taps[i]);
+    return RESULT_OK;
+}
+
+void filter_visibility_free(struct filter_visibility *visibility)
+{
+    free(visibility->tiles);
+    free(visibility->taps);
+}
+
+bool sight_scratch_make(const struct filter_visibility *visibility, struct sight_scratch *scratch)
+{
+    const struct sight_field *rows = &visibility->rows;
+    const size_t map = (size_t)visibility->across * (size_t)visibility->down * SIGHT_TILE_AREA;
+    scratch->map = malloc(map);
+    scratch->march = malloc(SIGHT_SCRATCH(rows->width > rows->height ? rows->width : rows->height));
+    if (scratch->map)
+        memset(scratch->map, SIGHT_HIDDEN, map);
+    return scratch->map && scratch->march;
+}
+
+void sight_scratch_free(struct sight_scratch *scratch)
+{
+    free(scratch->map);
+    free(scratch->march);
+}
+
+static bool sight_reserve(struct sight *sight, size_t tiles, size_t bytes)
+{
+    if (tiles > sight->tile_capacity) {
+        free(sight->tiles);
+        sight->tiles = malloc(tiles * sizeof *sight->tiles);
+        sight->tile_capacity = sight->tiles ? tiles : 0;
+    }
+    if (bytes > sight->capacity) {
+        uint8_t *levels = realloc(sight->levels, 2 * bytes);
+        sight->levels = levels ? levels : sight->levels;
+        sight->capacity = levels ? 2 * bytes : sight->capacity;
+    }
+    return tiles <= sight->tile_capacity && bytes <= sight->capacity;
+}
+
+/* Takes the marched map over; it is all hidden again. */
+static bool sight_keep(const struct filter_visibility *visibility, uint8_t *map, struct sight_extent extent,
+                       struct sight *sight)
+{
+    size_t used = 0;
+    sight->left = extent.left;
+    sight->top = extent.top;
+    sight->across = extent.right + 1 - extent.left;
+    sight->down = extent.bottom + 1 - extent.top;
+    for (int i = 0; i < sight->across * sight->down; i++) {
+        const int column = extent.left + i % sight->across, row = extent.top + i / sight->across;
+        if (!sight_reserve(sight, (size_t)sight->across * (size_t)sight->down, (used + 1) * SIGHT_PACKED))
+            return false;
+        const enum sight_kind kind = visibility->filter->sight->pack(
+            map + ((size_t)row * (size_t)visibility->across + (size_t)column) * SIGHT_TILE_AREA,
+            sight->levels + used * SIGHT_PACKED);
+        sight->tiles[i] = kind == SIGHT_MIXED ? (int32_t)used++ : kind == SIGHT_ALL_SEEN ? TILE_SEEN : TILE_HIDDEN;
+    }
+    return true;
+}
+
+bool sight_make(const struct filter_visibility *visibility, int x, int y, struct sight_scratch *scratch,
+                struct sight *sight)
+{
+    const struct filter *filter = visibility->filter;
+    const struct sight_field *both[2] = {&visibility->rows, &visibility->columns};
+    const int across = visibility->across, tile_x = x / SIGHT_TILE, tile_y = y / SIGHT_TILE;
+    struct filter_lanes lanes = filter_lanes_empty(x, y);
+    struct sight_extent found[2] = {{tile_x, tile_y, tile_x, tile_y}, {tile_y, tile_x, tile_y, tile_x}};
+    scratch->map[((size_t)tile_y * (size_t)across + (size_t)tile_x) * SIGHT_TILE_AREA +
+                (size_t)(y % SIGHT_TILE * SIGHT_TILE + x % SIGHT_TILE)] = 0;
+    if (filter_lane_fill(filter, x, y, 0, &lanes)) {
+        struct sight_eye eye = {.blind = lanes.blind[0], .fade = lanes.fade[0], .step = lanes.step[0]};
+        for (int i = 0; i < 3; i++) {
+            eye.a[i] = lanes.a[i][0];
+            eye.direction[i] = lanes.direction[i][0];
+        }
+        eye.steepest = 2 * eye.fade * sqrtf(eye.blind) * (1 + eye.blind);
+        const int limit = (int)filter->radius_limit_px;
+        for (int i = 0; i < 2; i++)
+            for (int step = -1; step <= 1; step += 2)
+                filter->sight->march(both[i], i == 0 ? x : y, i == 0 ? y : x, step, limit, &eye, scratch->march,
+                                     scratch->map, &found[i]);
+    }
+    const struct sight_extent *rows = &found[0], *columns = &found[1];
+    const struct sight_extent extent = {.left = columns->top < rows->left ? columns->top : rows->left,
+                                        .top = columns->left < rows->top ? columns->left : rows->top,
+                                        .right = columns->bottom > rows->right ? columns->bottom : rows->right,
+                                        .bottom = columns->right > rows->bottom ? columns->right : rows->bottom};
+    sight->x = x;
+    sight->y = y;
+    return sight_keep(visibility, scratch->map, extent, sight);
+}
+
+void sight_free(struct sight *sight)
+{
+    free(sight->tiles);
+    free(sight->levels);
+}
+
+/* Of a cell that is no larger than a tile. */
+static void share_within(const struct sight *sight, int k, int x, int y, int share[3])
+{
+    static const int levels[] = {0, 256, 448, 496, 508};
+    const int up = k < TILE_LEVEL ? TILE_LEVEL - k : 0;
+    const int column = (x >> up) - sight->left, row = (y >> up) - sight->top;
+    share[0] = share[1] = share[2] = SIGHT_HIDDEN;
+    if (column < 0 || row < 0 || column >= sight->across || row >= sight->down)
+        return;
+    const int32_t tile = sight->tiles[row * sight->across + column];
+    if (tile == TILE_SEEN)
+        share[0] = share[1] = share[2] = 0;
+    if (tile < 0)
+        return;
+    const int size = 1 << up, at = (y & (size - 1)) * size + (x & (size - 1));
+    const uint8_t *level = sight->levels + (size_t)tile * SIGHT_PACKED + levels[k];
+    for (int i = 0; i < 3; i++)
+        share[i] = level[k > 0 ? i * size * size + at : at];
+}
+
+void sight_share(const struct sight *sight, int k, int x, int y, int share[3])
+{
+    if (k <= TILE_LEVEL) {
+        share_within(sight, k, x, y, share);
+        return;
+    }
+    const int size = 1 << (k - TILE_LEVEL);
+    int sum = 0;
+    share[1] = SIGHT_HIDDEN;
+    share[2] = 0;
+    for (int v = y * size; v < (y + 1) * size; v++)
+        for (int u = x * size; u < (x + 1) * size; u++) {
+            int one[3];
+            share_within(sight, TILE_LEVEL, u, v, one);
+            sum += one[0];
+            share[1] = one[1] < share[1] ? one[1] : share[1];
+            share[2] = one[2] > share[2] ? one[2] : share[2];
+        }
+    share[0] = sum / (size * size);
+}
