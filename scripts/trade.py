@@ -21,9 +21,10 @@ WIDTH, HEIGHT = 240, 180
 SIZE = [f'+W{WIDTH}', f'+H{HEIGHT}']
 ALL, TRADE = (30, 100, 300, 1000, 10000), (100, 1000)
 RAYS, BRUTE, NORMALS = (1, 4, 16), (4, 16, 64), (4, 16, 64)
-SETTINGS = ('--quality exact', '--quality high', '--quality draft', '--margin 10%', '--subsample 2', '--subsample 4',
-            '--max-radius 64', '--max-radius 32', '--max-radius 16', '--energy 0.99', '--mode paper --weights table', '--mode paper --weights gauss', '--mode paper --window square',
-            '--mode paper --radius-step 4')
+QUALITIES = ('--quality exact', '--quality high', 'best', '--quality draft')
+SETTINGS = ('--margin 10%', '--subsample 2', '--subsample 4', '--max-radius 64', '--max-radius 32', '--max-radius 16',
+            '--energy 0.99', '--mode paper --weights table', '--mode paper --weights gauss',
+            '--mode paper --window square', '--mode paper --radius-step 4')
 WHOLE = 256  # rays of the lobe at every pixel of the image that FLIP compares with, at p = TRADE[0]
 EXAMPLES = '/usr/share/doc/povray/examples/advanced/'
 BUMPS = 3.3  # bump_size^2 * p: at normal incidence the bumps' lobe then has the mean cosine of cos^p
@@ -49,8 +50,9 @@ def srgb(linear):
 
 
 # relative: over value^2 + 0.01; bias: signed mean; flip: mean over the glossy pixels of base + reflectance x image, as
-# sRGB; confidence: its rank correlation with the error. The last two are empty where there is none.
-ERRORS = ('rmse', 'p95', 'largest', 'relative_mse', 'bias', 'flip', 'confidence')
+# sRGB; confidence: its rank correlation with the error; from_exact: RMSE against --quality exact at the glossy pixels.
+# The last three are empty where there is none.
+ERRORS = ('rmse', 'p95', 'largest', 'relative_mse', 'bias', 'flip', 'confidence', 'from_exact')
 
 
 def errors(image, probes):
@@ -85,10 +87,10 @@ class Scene:
         wrong = flip_evaluator.evaluate(truth, seen, 'LDR', applyMagma=False, computeMeanError=False)[0]
         return wrong[reflectance.max(-1) > 0].mean()
 
-    def note(self, p, method, n, seconds, image, confidence=''):
+    def note(self, p, method, n, seconds, image, confidence='', from_exact=''):
         found = [round(float(error), 5) for error in errors(image, self.probes[p])]
         flip = round(float(self.flip(image)), 5) if p == TRADE[0] else ''
-        self.rows.append((self.name, p, method, n, round(seconds, 3), *found, flip, confidence))
+        self.rows.append((self.name, p, method, n, round(seconds, 3), *found, flip, confidence, from_exact))
         print(*self.rows[-1], flush=True)
 
     def read_truth(self):
@@ -110,7 +112,15 @@ class Scene:
         image = f'{self.folder}/filtered.exr'
         phong = [] if 'inf' in options else ['--phong', str(p)]
         seconds += timed(f'{BIN}/glossfilter', passes, *phong, *options, '--quiet', '--layers', '-o', image)
-        self.note(p, method, 0, seconds, read(image, 'glossy.'), self.confidence(image, p) if method == 'best' else '')
+        found = read(image, 'glossy.')
+        if method == QUALITIES[0]:
+            self.exact = found
+        from_exact = round(float(self.off_exact(found)), 5) if method in QUALITIES and p in TRADE else ''
+        self.note(p, method, 0, seconds, found, self.confidence(image, p) if method == 'best' else '', from_exact)
+
+    def off_exact(self, image):
+        glossy = read(self.passes_file, 'reflectance.').max(-1) > 0
+        return np.sqrt(((image - self.exact)[glossy] ** 2).mean())
 
     def confidence(self, image, p):
         at = self.probes[p]['y'], self.probes[p]['x']
@@ -120,7 +130,8 @@ class Scene:
     def filters(self, p):
         self.filter(p, 'sharp', self.passes, self.passes_file, '--phong', 'inf')
         self.filter(p, 'paper', self.passes, self.passes_file, '--mode', 'paper')
-        self.filter(p, 'best', self.passes, self.passes_file)
+        for quality in QUALITIES if p in TRADE else ['best']:
+            self.filter(p, quality, self.passes, self.passes_file, *([] if quality == 'best' else quality.split()))
 
     def settings(self):
         for setting in SETTINGS:
@@ -230,6 +241,22 @@ METHODS = [('paper', 0), ('best', 0)] + [('rays', n) for n in RAYS] + [('brute',
 
 def method_names(methods):
     return [f'{m} {n}' if n else m for m, n in methods]
+
+
+def table_qualities(rows, names):
+    """Medians over the scenes; seconds of the filter alone, in shares of exact's."""
+    lines = ['| | ' + ' | '.join(f'RMSE, p = {p} | from exact | filter\'s seconds' for p in TRADE) + ' |',
+             '|---|' + '---|' * (3 * len(TRADE))]
+    for quality in QUALITIES:
+        cells = []
+        for p in TRADE:
+            own, exact, sharp = ([next(r for r in rows if r[:3] == (name, p, method)) for name in names]
+                                 for method in (quality, QUALITIES[0], 'sharp'))
+            shares = [(a[4] - c[4]) / (b[4] - c[4]) for a, b, c in zip(own, exact, sharp)]
+            cells += [f'{np.median([r[5] for r in own]):.4f}', f'{np.median([r[12] for r in own]):.4f}',
+                      f'{np.median(shares):.2f}']
+        lines.append(f'| {"`--quality normal`" if quality == "best" else f"`{quality}`"} | ' + ' | '.join(cells) + ' |')
+    return lines
 
 
 def table_settings(rows, names):
@@ -347,8 +374,8 @@ def main():
         writer.writerow(['scene', 'phong', 'method', 'samples', 'cpu_seconds', *ERRORS])
         writer.writerows(rows)
     draw(rows, names)
-    tables = {'filters': table_filters, 'settings': table_settings, 'trade': table_trade, 'speed': table_speed,
-              'flip': table_flip, 'confidence': table_confidence}
+    tables = {'filters': table_filters, 'qualities': table_qualities, 'settings': table_settings,
+              'trade': table_trade, 'speed': table_speed, 'flip': table_flip, 'confidence': table_confidence}
     text = open('docs/accuracy.md').read()
     for name, table in tables.items():
         head, rest = text.split(f'<!-- {name} -->\n')

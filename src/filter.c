@@ -33,8 +33,14 @@ static const double least_distance = 1e-9;
  * share of that over which what is seen fades out. */
 static const double blind_ratio = 1.21, fade_share = 0.7;
 
+/* See lobe_exponent(). */
+static const double least_pixels = 0.125;
+
 /* See filter_help_needed(); so little that it isn't worth its time is taken off. */
-static const double pool_pixels = 16, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.02;
+static const double pool_pixels = 4, pool_share_least = 1.0 / 1024, missing_share = 0.5, missing_least = 0.02;
+
+/* Of the window of the pool, in radii of equation (5): what is hidden from a is mostly farther away than b. */
+static const double pool_radii = 2;
 
 /* Of fit_plane() and dim_unseen(). */
 static const double ridge = 0.3, even_contrast = 3;
@@ -414,6 +420,29 @@ static void across_axes(const double d[3], struct filter_lanes *lanes, int l)
     }
 }
 
+/* How many pixels like (x, y) the lobe cos^p of its own holds. */
+static double pixels_in_lobe(const struct filter *filter, int x, int y)
+{
+    float a[3];
+    double direction[3];
+    filter_position_at(filter, x, y, a);
+    const double distance = filter_direction_to(filter, a, x, y, direction);
+    const double area = (double)*filter_tap_at(filter, FILTER_PLANE_AREA, x, y);
+    return lobe_integral(filter_exponent_at(filter, x, y), 0) / (area / (distance * distance + area / (2 * pi)));
+}
+
+/* The exponent that the pixel's sums are taken with. A pixel's L0 stands for all directions between it and the next
+ * pixels, so the lobe grows by the solid angle of one: that of n pixels by 1 + 1/n, and where the pixel is far larger
+ * than the lobe, so that L0 in the middle is as good as a mean, by no more than 1 + 1/least_pixels. The paper, and the
+ * sums without density, know of no such angle. */
+static double lobe_exponent(const struct filter *filter, int x, int y)
+{
+    const double phong = filter_exponent_at(filter, x, y);
+    if (filter->options->mode == FILTER_MODE_PAPER || filter->options->without & FILTER_WITHOUT_DENSITY)
+        return phong;
+    return phong / (1 + 1 / (pixels_in_lobe(filter, x, y) + least_pixels));
+}
+
 /* Fills lane l with pixel (x, y). False: nothing to sum, the result is L0. */
 static bool lane_fill(const struct filter *filter, int x, int y, int l, struct filter_lanes *lanes)
 {
@@ -436,7 +465,7 @@ static bool lane_fill(const struct filter *filter, int x, int y, int l, struct f
     if (lanes->b[3][l] > 0)
         lanes->farthest = fmaxf(lanes->farthest, lanes->distance[l]);
     box_add(&lanes->box, a);
-    lanes->slope[l] = (float)slope_of(filter->taps.shape, phong);
+    lanes->slope[l] = (float)slope_of(filter->taps.shape, lobe_exponent(filter, x, y));
     lanes->narrow = lanes->narrow && lanes->slope[l] >= FILTER_NARROW_SLOPE;
     return true;
 }
@@ -538,24 +567,22 @@ static double lobe_reach(const struct filter *filter, double phong)
     return fmin(fmin(reach, filter->options->max_angle_rad < pi / 2 ? limit * limit : INFINITY), ninety_degrees);
 }
 
-/* A lobe that is narrow for the mirror's curvature holds few pixels, and chance errs more there than what should be
- * hidden: share = (pool_pixels / pixels in the lobe)^2, less a little. And half of what no seen pixel covers is taken
+double filter_pool_radius(const struct filter *filter, int x, int y)
+{
+    return fmin(pool_radii * (double)image_row(&filter->radius, 0, y)[x], filter->radius_limit_px);
+}
+
+/* A lobe that is narrow for the mirror's curvature holds few pixels, n, and chance errs more there than what should be
+ * hidden: share = (pool_pixels / (n + pool_pixels))^2, less a little. And half of what no seen pixel covers is taken
  * from the others. */
 struct filter_help filter_help_needed(const struct filter *filter, int x, int y, double seen)
 {
-    double phong = filter_exponent_at(filter, x, y), direction[3];
-    float a[3];
-    filter_position_at(filter, x, y, a);
-    double distance = filter_direction_to(filter, a, x, y, direction);
-    double area = (double)*filter_tap_at(filter, FILTER_PLANE_AREA, x, y);
-    double pixels = lobe_integral(phong, 0) / (area / (distance * distance + area / (2 * pi)));
-    double lobe = lobe_integral(phong, filter->floor);
-    double few = pool_pixels / pixels;
-    struct filter_help help = {.share = fmax(few * few - pool_share_least, 0),
-                               .missing = missing_share * fmax((1 - missing_least) * lobe - seen, 0)};
-    if (filter->options->without & FILTER_WITHOUT_POOL || image_row(&filter->radius, 0, y)[x] < 1)
+    const double few = pool_pixels / (pixels_in_lobe(filter, x, y) + pool_pixels);
+    const double lobe = lobe_integral(lobe_exponent(filter, x, y), filter->floor);
+    if (filter->options->without & FILTER_WITHOUT_POOL || filter_pool_radius(filter, x, y) < 1)
         return (struct filter_help){0};
-    return help;
+    return (struct filter_help){.share = fmax(few * few - pool_share_least, 0),
+                                .missing = missing_share * fmax((1 - missing_least) * lobe - seen, 0)};
 }
 
 static double clamp(double value, double low, double high)
@@ -605,11 +632,11 @@ bool filter_lane_fill(const struct filter *filter, int x, int y, int l, struct f
     const bool everything = filter->options->without & FILTER_WITHOUT_VISIBILITY;
     if (!lane_fill(filter, x, y, l, lanes))
         return false;
-    const double reach = lobe_reach(filter, filter_exponent_at(filter, x, y));
+    const double blind = lobe_reach(filter, filter_exponent_at(filter, x, y)) * blind_ratio;
     lanes->floor = (float)filter->floor;
-    lanes->reach[l] = (float)reach;
-    lanes->blind[l] = everything ? FLT_MAX : (float)((double)lanes->reach[l] * blind_ratio);
-    lanes->fade[l] = everything ? 1 : (float)(1 / ((double)lanes->reach[l] * blind_ratio * fade_share));
+    lanes->reach[l] = (float)lobe_reach(filter, lobe_exponent(filter, x, y));
+    lanes->blind[l] = everything ? FLT_MAX : (float)blind;
+    lanes->fade[l] = everything ? 1 : (float)(1 / (blind * fade_share));
     lanes->step[l] = (float)gradient_least(filter, x, y);
     return true;
 }
@@ -626,7 +653,7 @@ void filter_write_best(struct filter *filter, int x, int y, int l, const struct 
     double mean[3], share = help.share;
     if (help.missing > 0 && pool->value[3][l] > 0)
         share += help.missing / pool->value[3][l];
-    double phong = filter_exponent_at(filter, x, y), weight = seen->value[FILTER_MOMENT_1][l];
+    double phong = lobe_exponent(filter, x, y), weight = seen->value[FILTER_MOMENT_1][l];
     double confidence = fmin(weight / lobe_integral(phong, filter->floor), 1);
     const bool fit = weight > 0 && !(filter->options->without & FILTER_WITHOUT_FIT);
     for (int i = 0; i < 3; i++)
@@ -670,7 +697,7 @@ void filter_best_lanes(struct filter *filter, int x, int y, float *scratch)
         help[l] = filter_help_needed(filter, x + l, y, seen.value[FILTER_MOMENT_1][l]);
         if (help[l].share == 0 && help[l].missing == 0)
             continue;
-        double radius = (double)image_row(&filter->radius, 0, y)[x + l];
+        double radius = filter_pool_radius(filter, x + l, y);
         lanes.limit[l] = (float)(radius * radius);
         any_help = true;
     }

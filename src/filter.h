@@ -65,7 +65,7 @@ const struct gbuffer *filter_gbuffer(const struct filter *filter);
  * glossy: of the paper the radius of equation (5) in pixels, of the best filter the confidence.
  *
  * FILTER_MODE_PAPER: equation (1). FILTER_MODE_BEST: over the pixels whose endpoints b' the pixel's own a sees, with f
- * = max(cos^p(theta) - (1 - energy), 0) times the solid angle at a of the area that b' stands for, the value of L0 at
+ * = max(cos^q(theta) - (1 - energy), 0) times the solid angle at a of the area that b' stands for, the value of L0 at
  * theta = 0 by a plane fitted to it with the weights f, within the range of what is seen (without the fit, sum f L0 /
  * sum f).
  * - That area: of the pixel's ray, the cross product of its shifts at b' to the next pixel across and down (of the two
@@ -76,8 +76,10 @@ const struct gbuffer *filter_gbuffer(const struct filter *filter);
  *   would no longer reflect.
  * - Where what is seen covers little of the lobe and single things are much brighter than the rest of it, the rest is
  *   taken to have fewer of them (part of the fit).
- * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of
- *   the lobe, and (16 / n)^2 where the lobe holds n pixels only.
+ * - q = p / (1 + 1 / (n + 1/8)), where the lobe of p holds n pixels like this one: a lobe as wide as p's and the pixel
+ *   together, for what lies between two pixels is known by these alone (without density q = p).
+ * - What is not seen helps by its sum over a window of twice the radius of equation (5): half as much as the seen ones
+ *   leave uncovered of the lobe, and (4 / (n + 4))^2.
  * With rays in the gbuffer the result is then corrected by them: see control_variate.h.
  * Confidence, 0 to 1: the sum of f over the lobe's integral, the share of the lobe that what is seen covers.
  *

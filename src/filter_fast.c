@@ -40,22 +40,23 @@ static const float few_pixels = 300;
 
 /* Units: of the lobe's width, 1/sqrt(p) radians, at most 1. */
 struct settings {
-    float smooth; /* things shift by no more over a block, */
+    float smooth;   /* things shift by no more over a block, */
     float unsteady; /* but for this share of what is seen (no unit) */
-    float alike;  /* and over a lattice of sights */
-    float akin;   /* the same where no lattice is so fine */
-    float spread; /* of the directions of a cell that is used whole */
-    float size;   /* of such a cell, of its distance in pixels (no unit) */
-    float hidden; /* what the hidden share of such a cell may be off, of the whole lobe's weight (no unit) */
+    float alike;    /* nor over a lattice of sights */
+    float akin;     /* the same where no lattice is so fine */
+    float spread;   /* of the directions of a cell that is used whole */
+    float size;     /* of such a cell, of its distance in pixels (no unit) */
+    float hidden;   /* what the hidden share of such a cell may be off, of the whole lobe's weight (no unit) */
 };
-
-
 
 static const struct settings settings_of[] = {
     [FILTER_QUALITY_DRAFT] = {8, 0.05f, 0.6f, 1, 0.5f, 1 / 5.f, 4e-3f},
     [FILTER_QUALITY_NORMAL] = {4, 0.01f, 0.2f, 1, 0.5f, 1 / 8.f, 2e-3f},
     [FILTER_QUALITY_HIGH] = {1.5f, 0.005f, 0.15f, 0.5f, 0.3f, 1 / 12.f, 5e-4f},
 };
+
+/* How far the direction may turn over a block, of how far things may shift: a turn shifts them all. */
+static const float turn_most = 0.75f;
 
 /* The largest of what changes from a pixel to the next, within a block. */
 struct rate {
@@ -505,7 +506,7 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
         any = true;
         phong_most_used = fmax(phong_most_used, filter_exponent_at(filter, u, v));
         if (!(without & FILTER_WITHOUT_POOL))
-            block->reach_px = (int)fmax(block->reach_px, ceil((double)image_row(&filter->radius, 0, v)[u]));
+            block->reach_px = (int)fmax(block->reach_px, ceil(filter_pool_radius(filter, u, v)));
     }
     block->lobe = lobe_integral(phong_most_used, filter->floor);
     block->spread_limit = fast->settings->spread * fast->settings->spread / (float)fmax(phong_most_used, 1);
@@ -555,7 +556,7 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
         help[l] = filter_help_needed(filter, block.xs[l], block.ys[l], seen.value[FILTER_MOMENT_1][l]);
         if (help[l].share == 0 && help[l].missing == 0)
             continue;
-        const double radius = (double)image_row(&filter->radius, 0, block.ys[l])[block.xs[l]];
+        const double radius = filter_pool_radius(filter, block.xs[l], block.ys[l]);
         block.group.lanes.limit[l] = (float)(radius * radius);
         any_help = true;
     }
@@ -612,8 +613,8 @@ static void block_do(struct worker *worker, int x, int y, int k)
         block_exact(worker, x, y);
         return;
     }
-    const bool even = rate.phong_low == rate.phong_high && rate.turn * shift_scale(fast, &rate, k) <= 0.75f;
-    const bool fine = rate.phong_high <= phong_most && (k == 0 || even);
+    const bool steady = rate.phong_low == rate.phong_high && rate.turn * shift_scale(fast, &rate, k) <= turn_most;
+    const bool fine = rate.phong_high <= phong_most && (k == 0 || steady);
     if ((fine && block_compute(worker, &rate, x, y, k)) || k == 0) {
         for (int v = y; v < y + size && v < taps->height; v++)
             memset(fast->apart + pixel_of(fast, x, v), k, (size_t)(x + size < taps->width ? size : taps->width - x));

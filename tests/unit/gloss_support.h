@@ -320,7 +320,7 @@ UNUSED static double oracle_gradient(const struct gbuffer *gbuffer, int x, int y
     return isinf(least) ? 0 : least / 2.25;
 }
 
-/* The best filter at a glossy pixel, ring by ring over the whole picture; radius is that of the pool, equation (5).
+/* The best filter at a glossy pixel, ring by ring over the whole picture; radius is that of equation (5).
  * `ways`: width * height doubles, `areas` oracle_area of every pixel. Returns the confidence. */
 UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const struct filter_options *options,
                                        double radius, const double *areas, double *ways, int x, int y,
@@ -328,12 +328,16 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
 {
     const int width = gbuffer->phong.width, height = gbuffer->phong.height;
     const double pi = 3.14159265358979324, floor_weight = 0.001;
-    const double p = (double)image_row(&gbuffer->phong, 0, y)[x], reach = pow(floor_weight, -2 / p) - 1;
+    const double phong = (double)image_row(&gbuffer->phong, 0, y)[x], own_area = areas[y * width + x];
+    double own[3];
+    const double own_distance = oracle_direction(gbuffer, x, y, x, y, own);
+    const double own_solid = own_area / (own_distance * own_distance + own_area / (2 * pi));
+    const double pixels = 2 * pi / (phong + 1) / own_solid, p = phong / (1 + 1 / (pixels + 0.125));
+    const double reach = pow(floor_weight, -2 / p) - 1, blind = 1.21 * (pow(floor_weight, -2 / phong) - 1);
     const double gradient = oracle_gradient(gbuffer, x, y);
-    double seen[4] = {0}, pool[4] = {0}, own[3], low[3] = {INFINITY, INFINITY, INFINITY};
+    double seen[4] = {0}, pool[4] = {0}, low[3] = {INFINITY, INFINITY, INFINITY};
     double high[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0, place[3] = {0}, second[3][3] = {{0}};
     double radiance_place[3][3] = {{0}};
-    oracle_direction(gbuffer, x, y, x, y, own);
     for (int m = 0; m < (width > height ? width : height); m++)
         for (int v = y - m; v <= y + m; v++)
             for (int u = x - m; u <= x + m; u++) {
@@ -350,7 +354,7 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                 }
                 if (!scene_glossy(gbuffer, u, v)) {
                     double way = fmax(before, gradient * (dx * dx + dy * dy));
-                    ways[v * width + u] = way <= 1.21 * reach ? way : INFINITY;
+                    ways[v * width + u] = way <= blind ? way : INFINITY;
                     continue;
                 }
                 double t = oracle_tangent(gbuffer, x, y, u, v), area = areas[v * width + u], direction[3];
@@ -358,8 +362,8 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                 double distance = oracle_direction(gbuffer, x, y, u, v, direction);
                 double nearest = fmax(distance * distance, from_own * from_own / 10);
                 double solid = area / (nearest + area / (2 * pi)), weight = pow(1 + t, -p / 2);
-                ways[v * width + u] = fmax(before, t) <= 1.21 * reach ? fmax(before, t) : INFINITY;
-                double in_view = isinf(before) ? 0 : fmax(0, fmin((1 - before / (1.21 * reach)) / 0.7, 1));
+                ways[v * width + u] = fmax(before, t) <= blind ? fmax(before, t) : INFINITY;
+                double in_view = isinf(before) ? 0 : fmax(0, fmin((1 - before / blind) / 0.7, 1));
                 double f = t <= reach ? in_view * fmax(weight - floor_weight, 0) * solid : 0;
                 double cosine_at = 0, sum = 0, at[3];
                 for (int i = 0; i < 3; i++) {
@@ -383,15 +387,13 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                     }
                     for (int j = 0; j < 3 && i < 3; j++)
                         radiance_place[i][j] += f * value * cosine_at * (direction[j] - cosine_at * own[j]);
-                    pool[i] += dx * dx + dy * dy <= radius * radius ? weight * solid * value : 0;
+                    pool[i] += dx * dx + dy * dy <= 4 * radius * radius ? weight * solid * value : 0;
                 }
             }
-    double distance = oracle_direction(gbuffer, x, y, x, y, own), area = areas[y * width + x], lobe = 2 * pi / (p + 1);
-    double share = pow(16 / (lobe / (area / (distance * distance + area / (2 * pi)))), 2);
     double cosine = pow(floor_weight, 1 / p);
     double cut = 2 * pi * ((1 - cosine * floor_weight) / (p + 1) - floor_weight * (1 - cosine));
-    share = fmax(share - 1.0 / 64, 0) + 0.5 * fmax(0.98 * cut - seen[3], 0) / pool[3];
-    if (radius < 1)
+    double share = fmax(pow(4 / (pixels + 4), 2) - 1.0 / 1024, 0) + 0.5 * fmax(0.98 * cut - seen[3], 0) / pool[3];
+    if (2 * radius < 1)
         share = 0;
     /* Normal equations of the plane, in space: the slope has no part along the direction, where second is 0. */
     double matrix[3][4], slope[3] = {0}, confidence = fmin(seen[3] / cut, 1);
