@@ -33,11 +33,11 @@ wait_until() {
     fail "never came true: $*"
 }
 
-# processes_in FOLDER: the ids of the processes whose current folder is below it.
+# processes_in FOLDER [NAME]: the ids of the processes whose current folder is below it, and its own name.
 processes_in() {
     local process
     for process in /proc/[0-9]*; do
-        case $(readlink "$process/cwd") in "$1"*) printf '%s\n' "${process#/proc/}" ;; esac
+        case $(readlink "$process/cwd") in "$1"*"${2-}") printf '%s\n' "${process#/proc/}" ;; esac
     done
 }
 
@@ -53,8 +53,13 @@ start() {
     started=$!
 }
 
+# It ends, within so many seconds; what hasn't after 60 more is killed.
 finish() {
     local began=$SECONDS
+    while kill -0 "$started" 2> /dev/null && [ $((SECONDS - began)) -le $(($1 + 60)) ]; do
+        sleep 0.02
+    done
+    kill -KILL "$started" 2> /dev/null
     wait "$started"
     status=$?
     [ $((SECONDS - began)) -le "$1" ] || fail "took $((SECONDS - began)) seconds to end"
@@ -111,10 +116,11 @@ interrupt_group() {
 }
 check "SIGINT from the keyboard, to all processes" interrupt_group
 
+# The base's takes longest: it doesn't end by itself meanwhile.
 kill_one() {
     start "$bin/povgloss" render scene.pov "$library" +W1600 +H1200 --jobs 3 --quiet -o output/picture.png
     wait_until some_run 3 || return 1
-    kill -KILL "$(processes_in "$TMPDIR" | head -n 1)"
+    kill -KILL "$(processes_in "$TMPDIR" base | head -n 1)"
     finish 5 && left_clean 4 || return 1
     grep -q 'exit status 137 in the [a-z-]* pass' err || { cat err; return 1; }
 }
