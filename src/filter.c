@@ -39,9 +39,6 @@ static const double least_pixels = 0.125;
 /* See filter_help_needed(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 4, pool_share_least = 1.0 / 1024, missing_share = 0.5, missing_least = 0.02;
 
-/* Of the window of the pool, in radii of equation (5): what is hidden from a is mostly farther away than b. */
-static const double pool_radii = 2;
-
 /* Of fit_plane() and dim_unseen(). */
 static const double ridge = 0.3, even_contrast = 3;
 
@@ -567,11 +564,6 @@ static double lobe_reach(const struct filter *filter, double phong)
     return fmin(fmin(reach, filter->options->max_angle_rad < pi / 2 ? limit * limit : INFINITY), ninety_degrees);
 }
 
-double filter_pool_radius(const struct filter *filter, int x, int y)
-{
-    return fmin(pool_radii * (double)image_row(&filter->radius, 0, y)[x], filter->radius_limit_px);
-}
-
 /* A lobe that is narrow for the mirror's curvature holds few pixels, n, and chance errs more there than what should be
  * hidden: share = (pool_pixels / (n + pool_pixels))^2, less a little. And half of what no seen pixel covers is taken
  * from the others. */
@@ -579,7 +571,7 @@ struct filter_help filter_help_needed(const struct filter *filter, int x, int y,
 {
     const double few = pool_pixels / (pixels_in_lobe(filter, x, y) + pool_pixels);
     const double lobe = lobe_integral(lobe_exponent(filter, x, y), filter->floor);
-    if (filter->options->without & FILTER_WITHOUT_POOL || filter_pool_radius(filter, x, y) < 1)
+    if (filter->options->without & FILTER_WITHOUT_POOL || image_row(&filter->radius, 0, y)[x] < 1)
         return (struct filter_help){0};
     return (struct filter_help){.share = fmax(few * few - pool_share_least, 0),
                                 .missing = missing_share * fmax((1 - missing_least) * lobe - seen, 0)};
@@ -697,7 +689,7 @@ void filter_best_lanes(struct filter *filter, int x, int y, float *scratch)
         help[l] = filter_help_needed(filter, x + l, y, seen.value[FILTER_MOMENT_1][l]);
         if (help[l].share == 0 && help[l].missing == 0)
             continue;
-        double radius = filter_pool_radius(filter, x + l, y);
+        double radius = (double)image_row(&filter->radius, 0, y)[x + l];
         lanes.limit[l] = (float)(radius * radius);
         any_help = true;
     }

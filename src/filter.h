@@ -78,8 +78,8 @@ const struct gbuffer *filter_gbuffer(const struct filter *filter);
  *   taken to have fewer of them (part of the fit).
  * - q = p / (1 + 1 / (n + 1/8)), where the lobe of p holds n pixels like this one: a lobe as wide as p's and the pixel
  *   together, for what lies between two pixels is known by these alone (without density q = p).
- * - What is not seen helps by its sum over a window of twice the radius of equation (5): half as much as the seen ones
- *   leave uncovered of the lobe, and (4 / (n + 4))^2.
+ * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of
+ *   the lobe, and (4 / (n + 4))^2.
  * With rays in the gbuffer the result is then corrected by them: see control_variate.h.
  * Confidence, 0 to 1: the sum of f over the lobe's integral, the share of the lobe that what is seen covers.
  *

@@ -506,7 +506,7 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
         any = true;
         phong_most_used = fmax(phong_most_used, filter_exponent_at(filter, u, v));
         if (!(without & FILTER_WITHOUT_POOL))
-            block->reach_px = (int)fmax(block->reach_px, ceil(filter_pool_radius(filter, u, v)));
+            block->reach_px = (int)fmax(block->reach_px, ceil((double)image_row(&filter->radius, 0, v)[u]));
     }
     block->lobe = lobe_integral(phong_most_used, filter->floor);
     block->spread_limit = fast->settings->spread * fast->settings->spread / (float)fmax(phong_most_used, 1);
@@ -556,7 +556,7 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
         help[l] = filter_help_needed(filter, block.xs[l], block.ys[l], seen.value[FILTER_MOMENT_1][l]);
         if (help[l].share == 0 && help[l].missing == 0)
             continue;
-        const double radius = filter_pool_radius(filter, block.xs[l], block.ys[l]);
+        const double radius = (double)image_row(&filter->radius, 0, block.ys[l])[block.xs[l]];
         block.group.lanes.limit[l] = (float)(radius * radius);
         any_help = true;
     }

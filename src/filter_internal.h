@@ -68,9 +68,6 @@ struct filter_lanes filter_lanes_empty(int x, int y);
 /* Whether the picture needs one of these pixels: a margin is only looked at. */
 bool filter_is_needed(const struct filter *filter, int x, int y, int width, int height);
 
-/* Of the window of the sums over all endpoints about a glossy pixel, in pixels. */
-double filter_pool_radius(const struct filter *filter, int x, int y);
-
 /* Of a pixel whose seen taps' weights come to `seen`; what was found there is in lane l. */
 struct filter_help filter_help_needed(const struct filter *filter, int x, int y, double seen);
 void filter_write_best(struct filter *filter, int x, int y, int l, const struct filter_moments *seen,

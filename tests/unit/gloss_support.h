@@ -320,7 +320,7 @@ UNUSED static double oracle_gradient(const struct gbuffer *gbuffer, int x, int y
     return isinf(least) ? 0 : least / 2.25;
 }
 
-/* The best filter at a glossy pixel, ring by ring over the whole picture; radius is that of equation (5).
+/* The best filter at a glossy pixel, ring by ring over the whole picture; radius is that of the pool, equation (5).
  * `ways`: width * height doubles, `areas` oracle_area of every pixel. Returns the confidence. */
 UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const struct filter_options *options,
                                        double radius, const double *areas, double *ways, int x, int y,
@@ -387,13 +387,13 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                     }
                     for (int j = 0; j < 3 && i < 3; j++)
                         radiance_place[i][j] += f * value * cosine_at * (direction[j] - cosine_at * own[j]);
-                    pool[i] += dx * dx + dy * dy <= 4 * radius * radius ? weight * solid * value : 0;
+                    pool[i] += dx * dx + dy * dy <= radius * radius ? weight * solid * value : 0;
                 }
             }
     double cosine = pow(floor_weight, 1 / p);
     double cut = 2 * pi * ((1 - cosine * floor_weight) / (p + 1) - floor_weight * (1 - cosine));
     double share = fmax(pow(4 / (pixels + 4), 2) - 1.0 / 1024, 0) + 0.5 * fmax(0.98 * cut - seen[3], 0) / pool[3];
-    if (2 * radius < 1)
+    if (radius < 1)
         share = 0;
     /* Normal equations of the plane, in space: the slope has no part along the direction, where second is 0. */
     double matrix[3][4], slope[3] = {0}, confidence = fmin(seen[3] / cut, 1);
