@@ -655,9 +655,13 @@ struct encoding {
     exr_result_t code; /* of a chunk that failed: no more are written */
 };
 
+/* Before the chunk is written. One that deflate left as long as it was is written as it was, which a reader takes it
+ * for by its size; OpenEXRCore to 3.4.7 doesn't (its issue 2306). */
 static exr_result_t wait_for_turn(exr_encode_pipeline_t *pipeline)
 {
     struct encoding *encoding = pipeline->encoding_user_data;
+    if (pipeline->compressed_bytes == pipeline->packed_bytes)
+        memcpy(pipeline->compressed_buffer, pipeline->packed_buffer, pipeline->packed_bytes);
     pthread_mutex_lock(&encoding->lock);
     while (encoding->turn < pipeline->chunk.start_y - encoding->top && !encoding->code)
         pthread_cond_wait(&encoding->turn_changed, &encoding->lock);

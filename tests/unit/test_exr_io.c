@@ -152,6 +152,36 @@ static void exr_read__what_exr_write_wrote__bit_for_bit(void **state)
         }
 }
 
+/* Random floats, more and more of them 0: the deflated size of their chunk comes down by steps of about
+ * a byte, and so to that of the chunk itself, which tells a reader that it isn't deflated. */
+static void exr_write__chunks_about_as_long_deflated__read_as_they_were(void **state)
+{
+    enum { SIZE = 16 };
+    (void)state;
+    for (int zeros = 0; zeros < 2 * SIZE; zeros++)
+        for (uint32_t seed = 1; seed <= 8; seed++) {
+            struct image image;
+            struct exr_contents contents;
+            struct error err;
+            uint32_t random = seed;
+            assert_ok(image_alloc(&image, SIZE, SIZE, 1, &err), err);
+            for (int i = 0; i < SIZE * SIZE; i++) {
+                uint32_t bits = 0;
+                for (int k = 0; k < 2; k++) {
+                    random = random * 1664525u + 1013904223u;
+                    bits = bits << 16 | random >> 16;
+                }
+                bits &= i < zeros ? 0 : 0xff7fffffu; /* finite */
+                memcpy(&image_row(&image, 0, i / SIZE)[i % SIZE], &bits, sizeof bits);
+            }
+            write_planes(in_scratch("a.exr"), &image, NULL);
+            assert_ok(exr_read(in_scratch("a.exr"), &contents, &err), err);
+            assert_same_plane(&image, 0, &contents.image, 0);
+            exr_contents_free(&contents);
+            image_free(&image);
+        }
+}
+
 /* Offset of the bytes `what` in a file. */
 static size_t find_bytes(const unsigned char *data, size_t size, const void *what, size_t length)
 {
@@ -765,6 +795,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exr_write__several_sizes__oiiotool_reads_the_same_floats),
         cmocka_unit_test(exr_read__what_exr_write_wrote__bit_for_bit),
+        cmocka_unit_test(exr_write__chunks_about_as_long_deflated__read_as_they_were),
         cmocka_unit_test(exr_read__what_oiiotool_wrote__same_floats),
         cmocka_unit_test(exr_read__mipmapped__level_0),
         cmocka_unit_test(exr_read__half__every_half_exact),
