@@ -10,7 +10,7 @@
 
 /* EXACT: the best filter's sums as they are written below. The others take far pixels together, compute some pixels
  * and interpolate (filter_fast.c): RMSE against the exact result about 0.001 to 0.003 (NORMAL), half of that (HIGH),
- * 0.002 to 0.014 (DRAFT); see docs/performance.md. Exact in any case are pictures of fewer than 16384 pixels, but for a
+ * 0.002 to 0.01 (DRAFT); see docs/performance.md. Exact in any case are pictures of fewer than 16384 pixels, but for a
  * draft, and all with a max_radius_px. Only exact results of flipped passes are the flipped results. */
 enum filter_quality { FILTER_QUALITY_NORMAL, FILTER_QUALITY_DRAFT, FILTER_QUALITY_HIGH, FILTER_QUALITY_EXACT };
 enum filter_mode { FILTER_MODE_BEST, FILTER_MODE_PAPER };
