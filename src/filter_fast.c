@@ -4,7 +4,7 @@
  *   little of the lobe from one to the next. What lies between is interpolated.
  * - Taps are clustered (filter_cells.h): a cell is used whole where it is small for its distance, its directions
  *   differ by little of the lobe, and it is seen whole or not at all.
- * - What is seen is found (filter_sight.h) for few pixels, on a lattice, and interpolated for those between by the
+ * - What is seen is found (filter_visibility.h) for few pixels, on a lattice, and interpolated for those between by the
  *   share of each cell that is hidden. What hides may be narrower than any cell: a sight looks at every pixel.
  *
  * Each row of the largest blocks is done by itself, so that the result doesn't depend on the threads.

@@ -73,10 +73,10 @@ static void own_tile(const struct sight_tile *tile, const struct sight_taps *tap
         }
     }
     for (int l = 0; l < LANES; l++)
-        columns[l] = (float)((dx + l) * (dx + l));
+        columns[l] = (float)(dx + l) * (float)(dx + l);
     for (int r = 0; r < SIGHT_TILE; r++) {
         const int i = r * SIGHT_TILE;
-        const float row = (float)((dy + r) * (dy + r));
+        const float row = (float)(dy + r) * (float)(dy + r);
         for (int l = 0; l < LANES; l++)
             far[l] = eye->step * (columns[l] + row);
         own_lanes(taps->planes[0] + i, taps->planes[1] + i, taps->planes[2] + i, taps->planes[3] + i,
