@@ -54,17 +54,16 @@ joined_bands() {
 }
 check 'glossfilter__bands_with_rays__the_whole_picture' joined_bands
 
-# 8 bits: where the eye is, which is measured, differs in the seventh digit.
 other_exponent() {
-    run "$bin/glossfilter" room.exr --phong 50 -o other.png
+    run "$bin/glossfilter" room.exr --phong 50 -o other.exr
     expect_status 0 && expect_message 'were drawn for another exponent than 50' || return 1
     "$bin/povgloss" passes room.pov "$library" "${size[@]}" --quiet -o plain.exr &&
-        "$bin/glossfilter" plain.exr --phong 50 --quiet -o without.png && cmp other.png without.png
+        "$bin/glossfilter" plain.exr --phong 50 --quiet -o without.exr && cmp other.exr without.exr
 }
 check 'glossfilter__another_exponent__rays_left_out_with_a_warning' other_exponent
 
 own_exponent() {
-    render own.png --phong 50 --rays 1 && ! cmp -s own.png other.png
+    render own.exr --phong 50 --rays 1 && ! cmp -s own.exr other.exr
     render mirror.exr --phong inf && render mirror_rays.exr --phong inf --rays 1 && cmp mirror.exr mirror_rays.exr
 }
 check 'render__exponent_of_the_command_line__rays_of_it' own_exponent
