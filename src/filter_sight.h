@@ -19,7 +19,7 @@ enum {
 };
 
 /* Bytes of scratch of sight_march for pictures of `longest` pixels on their longer side. */
-#define SIGHT_SCRATCH(longest) ((2 + 2 * SIGHT_TILE) * ((size_t)(longest) + 3 * SIGHT_MARGIN))
+#define SIGHT_SCRATCH(longest) ((2 * sizeof(uint16_t) + 2 * SIGHT_TILE) * ((size_t)(longest) + 3 * SIGHT_MARGIN))
 
 /* 16 x 16 taps: x, y, z, w and area as in struct filter_taps, 0 beyond the picture. */
 struct sight_taps {
