@@ -300,8 +300,8 @@ ALWAYS_INLINE float narrow_log2_of_1_plus(float t)
     return p * t;
 }
 
-/* One tap for all lanes, `separation` pixels^2 away; `least` is lowered to its state. Where no endpoint is known the angle is what a surface that goes on unchanged would give for the farthest
- * things. */
+/* One tap for all lanes, `separation` pixels^2 away; `least` is lowered to its state. Where no endpoint is known the
+ * angle is what a surface that goes on unchanged would give for the farthest things. */
 ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
                            float separation, bool narrow, bool mixed, const float *restrict before,
                            float *restrict own, float *restrict least, float (*sums)[FILTER_LANES],

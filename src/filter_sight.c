@@ -48,40 +48,36 @@ ALWAYS_INLINE void own_lanes(const float *px, const float *py, const float *pz, 
 }
 
 /* The same of a tile whose first pixel is dx, dy off the eye's. By its cells, where no tap's share is off by more than
- * a hundredth for that. */
+ * three hundredths for that. */
 static void own_tile(const struct sight_tile *tile, const struct sight_taps *taps, int dx, int dy,
                      const struct sight_eye *eye, uint8_t own[SIGHT_TILE_AREA])
 {
-    static const float all[LANES] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, none[LANES] = {0};
-    _Alignas(64) float far[LANES], along[LANES], columns[LANES];
+    _Alignas(64) float far[LANES], along[LANES], unused[LANES];
     _Alignas(16) uint8_t cells[LANES];
-    if (tile->off < INFINITY) {
-        uint32_t least = UINT32_MAX; /* positive floats are in the order of their bits */
-        for (int l = 0; l < LANES; l++) {
-            const float right = (float)(dx + l % 4 * 4) + 1.5f, down = (float)(dy + l / 4 * 4) + 1.5f;
-            far[l] = eye->step * (right * right + down * down);
-        }
-        own_lanes(tile->cells[0], tile->cells[1], tile->cells[2], tile->cells[3], tile->empty ? none : all, far, eye,
-                  along, cells);
-        for (int l = 0; l < LANES; l++)
-            least = bits_of(fabsf(along[l])) < least ? bits_of(fabsf(along[l])) : least;
-        if (tile->empty || tile->off * eye->steepest <= 0.01f * float_of(least)) {
-            for (int i = 0; i < 4; i++)
-                for (int r = 0; r < 4; r++)
-                    for (int j = 0; j < 4; j++)
-                        memset(own + (4 * i + r) * SIGHT_TILE + 4 * j, cells[4 * i + j], 4);
-            return;
-        }
+    for (int l = 0; l < LANES; l++) {
+        const float right = (float)(dx + l % 4 * 4) + 1.5f, down = (float)(dy + l / 4 * 4) + 1.5f;
+        far[l] = eye->step * (right * right + down * down);
     }
-    for (int l = 0; l < LANES; l++)
-        columns[l] = (float)(dx + l) * (float)(dx + l);
-    for (int r = 0; r < SIGHT_TILE; r++) {
-        const int i = r * SIGHT_TILE;
-        const float row = (float)(dy + r) * (float)(dy + r);
-        for (int l = 0; l < LANES; l++)
-            far[l] = eye->step * (columns[l] + row);
-        own_lanes(taps->planes[0] + i, taps->planes[1] + i, taps->planes[2] + i, taps->planes[3] + i,
-                  taps->planes[4] + i, far, eye, along, own + i);
+    own_lanes(tile->cells[0], tile->cells[1], tile->cells[2], tile->cells[3], tile->cells[4], far, eye, along, cells);
+    for (int row = 0; row < 4; row++) {
+        uint8_t *out = own + row * 4 * SIGHT_TILE;
+        float least = INFINITY;
+        for (int j = 0; j < 4; j++)
+            least = fabsf(along[4 * row + j]) < least ? fabsf(along[4 * row + j]) : least;
+        if (tile->off[row] * eye->steepest <= 0.03f * least) {
+            for (int j = 0; j < 4; j++)
+                memset(out + 4 * j, cells[4 * row + j], 4);
+            for (int r = 1; r < 4; r++)
+                memcpy(out + r * SIGHT_TILE, out, SIGHT_TILE);
+            continue;
+        }
+        for (int r = 4 * row; r < 4 * row + 4; r++) {
+            const int i = r * SIGHT_TILE;
+            for (int l = 0; l < LANES; l++)
+                far[l] = eye->step * ((float)(dx + l) * (float)(dx + l) + (float)(dy + r) * (float)(dy + r));
+            own_lanes(taps->planes[0] + i, taps->planes[1] + i, taps->planes[2] + i, taps->planes[3] + i,
+                      taps->planes[4] + i, far, eye, unused, own + i);
+        }
     }
 }
 
@@ -182,14 +178,15 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
             const float slope = (float)(65535.0 / k);
             for (int i = left; i < x; i += STRIP)
                 march_strip(before + i, before + i + 1, own + at + i, x - i, -1, slope, state + i, hidden + at + i);
-            march_strip(before + x, before + x, own + at + x, 0, 1, slope, state + x, hidden + at + x);
-            for (int i = x + 1; i < right; i += STRIP)
+            for (int i = x; i < right; i += STRIP)
                 march_strip(before + i, before + i - 1, own + at + i, i - x, 1, slope, state + i, hidden + at + i);
             uint16_t *swap = before;
             before = state;
             state = swap;
         }
         for (int tile = from; tile <= to; tile++) {
+            if (field->tiles[band * field->row + tile * field->column].empty)
+                continue;
             uint8_t *shares = map + (band * field->row + tile * field->column) * SIGHT_TILE_AREA;
             _Alignas(64) uint8_t found[SIGHT_TILE_AREA];
             copy_rows(found, SIGHT_TILE, hidden + tile * SIGHT_TILE, pitch);
@@ -278,8 +275,11 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
                             float (*restrict sums)[LANES], struct filter_moments *restrict range)
 {
     const struct filter_lanes *lanes = &group->lanes;
-    _Alignas(64) float lost[LANES] = {0}, weight[LANES], u[LANES], v[LANES];
-    for (int s = 0; s < group->sights; s++)
+    _Alignas(64) float lost[LANES], there[LANES], weight[LANES], u[LANES], v[LANES];
+    const int sights = node->unlike > 0 ? group->sights : 0;
+    for (int l = 0; l < LANES; l++)
+        lost[l] = sights > 0 ? 0.0f : hidden[0];
+    for (int s = 0; s < sights; s++)
         for (int l = 0; l < LANES; l++)
             lost[l] += group->share[s][l] * hidden[s];
     for (int l = 0; l < LANES; l++) {
@@ -291,9 +291,11 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
         f = f > 0.0f ? f : 0.0f;
         f = t <= lanes->reach[l] ? f : 0.0f;
         float share = (lanes->blind[l] - t) * lanes->fade[l];
-        share = (share < 1.0f ? share : 1.0f) - lost[l];
-        share = share > 0.0f ? share : 0.0f;
-        weight[l] = f * share * enlarged(node, square);
+        share = clamp_share(share);
+        f *= enlarged(node, square);
+        there[l] = f * share;
+        share -= lost[l];
+        weight[l] = f * (share > 0.0f ? share : 0.0f);
         float scale = c / (square + FLT_MIN);
         u[l] = scale * (place.x * lanes->across[0][0][l] + place.y * lanes->across[0][1][l] +
                         place.z * lanes->across[0][2][l]);
@@ -301,11 +303,13 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
                         place.z * lanes->across[1][2][l]);
     }
     const float solid = node->solid, square = node->square;
-    const float unsteady = clamp_share(group->turn + group->move * node->w - 1);
+    const float unsteady = clamp_share(group->turn + group->move * node->w - 1), unlike = node->unlike * solid;
     for (int l = 0; l < LANES; l++)
         weight[l] *= solid;
-    for (int l = 0; l < LANES; l++)
+    for (int l = 0; l < LANES; l++) {
         group->unsteady[l] += weight[l] * unsteady;
+        group->unlike[l] += there[l] * unlike;
+    }
     for (int i = 0; i < 3; i++) {
         const float radiance = node->radiance[i];
         for (int l = 0; l < LANES; l++) {
@@ -338,6 +342,7 @@ static void see(const struct filter_node *nodes, const float *hidden, int count,
 {
     memset(sums, 0, sizeof *sums);
     memset(group->unsteady, 0, sizeof group->unsteady);
+    memset(group->unlike, 0, sizeof group->unlike);
     for (int i = 0; i < 3; i++)
         for (int l = 0; l < LANES; l++) {
             sums->low[i][l] = INFINITY;
