@@ -28,6 +28,7 @@ enum {
     SIDE = 4,         /* computed pixels across a block */
     BLOCK_LEVELS = 5, /* of blocks whose pixels are 1, 2, 4, 8 and 16 apart */
     LARGEST = SIDE << (BLOCK_LEVELS - 1),
+    REACH = 3 << (BLOCK_LEVELS - 1), /* pixels: interpolation comes from no farther, 3 (8 + 4 + 2 + 1) */
     SIGHTS = 40, /* that are kept, while their memory allows: */
     LEAST_PIXELS = 1 << 14 /* of a picture: the exact sums of a smaller one are as fast */
 };
@@ -700,7 +701,7 @@ static void block_do(struct worker *worker, int x, int y, int k)
     const struct filter_taps *taps = &fast->filter->taps;
     const int size = SIDE << k;
     if (x >= taps->width || y >= taps->height || worker->out_of_memory || interrupt_signal() ||
-        !filter_is_needed(fast->filter, x, y, size, size))
+        !filter_is_needed(fast->filter, x - REACH, y - REACH, size + 2 * REACH, size + 2 * REACH))
         return;
     const struct rate rate = rate_of_block(fast, x / size, y / size, k);
     if (rate.phong_high < 0)
