@@ -1,11 +1,13 @@
 /* The best filter, fast: what the exact sums do for each pixel alone, shared.
  *
  * - Blocks of 4 x 4 pixels are computed together, 16 to 1 pixels apart: as far as the things that they see shift by
- *   little of the lobe from one to the next. What lies between is interpolated.
+ *   little of the lobe from one to the next. What lies between is interpolated, and computed where it can't be: at
+ *   the borders of mirrors.
  * - Taps are clustered (filter_cells.h): a cell is used whole where it is small for its distance, its directions
  *   differ by little of the lobe, and it is seen whole or not at all.
- * - What is seen is found (filter_visibility.h) for few pixels, on a lattice, and interpolated for those between by the
- *   share of each cell that is hidden. What hides may be narrower than any cell: a sight looks at every pixel.
+ * - What is seen is found (filter_visibility.h) for the corners of blocks, and interpolated for the pixels between by
+ *   the share of each cell that is hidden; where the corners differ by too much, blocks are halved, down to single
+ *   pixels. What hides may be narrower than any cell: a sight looks at every pixel.
  *
  * Each row of the largest blocks is done by itself, so that the result doesn't depend on the threads.
  */
@@ -26,6 +28,7 @@ enum {
     SIDE = 4,         /* computed pixels across a block */
     BLOCK_LEVELS = 5, /* of blocks whose pixels are 1, 2, 4, 8 and 16 apart */
     LARGEST = SIDE << (BLOCK_LEVELS - 1),
+    REACH = 3 << (BLOCK_LEVELS - 1), /* pixels: interpolation comes from no farther, 3 (8 + 4 + 2 + 1) */
     SIGHTS = 40, /* that are kept, while their memory allows: */
     LEAST_PIXELS = 1 << 14 /* of a picture: the exact sums of a smaller one are as fast */
 };
@@ -35,25 +38,29 @@ static const double sights_bytes = 0x1p27;
 /* Lobes above this exponent are narrower than what floats in units of r' tell apart. */
 static const float phong_most = 1e5f;
 
-/* Of tan^2(theta) where the lobe ends, over the square of the angle from a pixel to the next. */
-static const float few_pixels = 300;
+/* Of tan^2(theta) where the lobe ends, over the square of the angle from a pixel to the next; of lobes wider than
+ * narrow_reach, tan^2(theta), in proportion fewer: near things are then many pixels from where far ones are. */
+static const float few_pixels = 300, narrow_reach = 0.01f;
 
 /* Units: of the lobe's width, 1/sqrt(p) radians, at most 1. */
 struct settings {
     float smooth;   /* things shift by no more over a block, */
     float unsteady; /* but for this share of what is seen (no unit) */
-    float alike;    /* nor over a lattice of sights */
-    float akin;     /* the same where no lattice is so fine */
+    float unlike;   /* the share of what is there by which a block's sights may differ (no unit) */
     float spread;   /* of the directions of a cell that is used whole */
     float size;     /* of such a cell, of its distance in pixels (no unit) */
     float hidden;   /* what the hidden share of such a cell may be off, of the whole lobe's weight (no unit) */
 };
 
 static const struct settings settings_of[] = {
-    [FILTER_QUALITY_DRAFT] = {8, 0.05f, 0.6f, 1, 0.5f, 1 / 5.f, 4e-3f},
-    [FILTER_QUALITY_NORMAL] = {4, 0.01f, 0.2f, 1, 0.5f, 1 / 8.f, 2e-3f},
-    [FILTER_QUALITY_HIGH] = {1.5f, 0.005f, 0.15f, 0.5f, 0.3f, 1 / 12.f, 5e-4f},
+    [FILTER_QUALITY_DRAFT] = {8, 0.05f, 0.3f, 0.5f, 1 / 4.f, 8e-3f},
+    [FILTER_QUALITY_NORMAL] = {4, 0.01f, 0.15f, 0.5f, 1 / 7.f, 8e-3f},
+    [FILTER_QUALITY_HIGH] = {1.5f, 0.005f, 0.03f, 0.3f, 1 / 10.f, 2e-3f},
 };
+
+/* A sight isn't lent to a pixel from which what it sees is shifted by more, nor is a pixel at the border of a mirror
+ * interpolated from such: what is there is something else. */
+static const double lent_most = 4, between_most = 0.25;
 
 /* How far the direction may turn over a block, of how far things may shift: a turn shifts them all. */
 static const float turn_most = 0.75f;
@@ -62,8 +69,8 @@ static const float turn_most = 0.75f;
 struct rate {
     float turn;                   /* of the direction, radians */
     float move;                   /* of a */
-    float phong_low, phong_high;  /* of the passes, 1 where those have none; low is -1 where not all is glossy, high
-                                     where nothing is */
+    float phong_low, phong_high;  /* of the passes, 1 where those have none; high is -1 where nothing is glossy */
+    bool border;                  /* not all is */
 };
 
 struct fast {
@@ -91,19 +98,26 @@ struct worker {
     bool out_of_memory;
 };
 
+/* Up to 16 pixels that are computed together. */
+struct pixels {
+    int xs[LANES], ys[LANES];
+    bool used[LANES];
+    struct filter_group group;
+};
+
 /* A block's pixels, how they see, and what they may use whole. */
 struct block {
+    struct pixels lattice, between; /* where it can't be interpolated */
+    int between_count;
     int left, top, right, bottom; /* of the computed pixels */
     int finest;                   /* cells of so many pixels are always used whole */
     int reach_px;                 /* of the pool */
-    int middle;                   /* a lane in the middle */
+    int middle;                   /* a lane of the lattice in the middle */
     double lobe;                  /* its integral, steradians */
     float spread_limit;           /* radians^2 */
     bool everything;              /* is seen */
     const struct sight *sights[SIGHTS_OF_GROUP];
-    int xs[LANES], ys[LANES];
-    bool used[LANES];
-    struct filter_group group;
+    int sight_count;
 };
 
 bool filter_fast_applies(const struct filter *filter)
@@ -147,14 +161,15 @@ static struct shift shift_between(const struct filter *filter, int x, int y, int
 static struct rate rate_of_pixel(const struct filter *filter, int x, int y)
 {
     const struct image *phong = &filter->gbuffer->phong;
-    struct rate rate = {.phong_low = -1, .phong_high = -1};
+    struct rate rate = {.phong_low = INFINITY, .phong_high = -1, .border = true};
     if (!filter_is_glossy(filter, x, y))
         return rate;
+    rate.border = false;
     rate.phong_low = rate.phong_high = phong->pixels ? image_row(phong, 0, y)[x] : 1;
     for (int n = 0; n < 2; n++) {
         const int u = x + (n == 0), v = y + (n == 1);
         if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v)) {
-            rate.phong_low = -1;
+            rate.border = true;
             continue;
         }
         const struct shift shift = shift_between(filter, x, y, u, v);
@@ -170,6 +185,7 @@ static void rate_add(struct rate *sum, struct rate rate)
     sum->move = fmaxf(sum->move, rate.move);
     sum->phong_low = fminf(sum->phong_low, rate.phong_low);
     sum->phong_high = fmaxf(sum->phong_high, rate.phong_high);
+    sum->border = sum->border || rate.border;
 }
 
 /* Rates of level k's blocks, of pixels or of the blocks of the level below. */
@@ -184,7 +200,7 @@ static void rates_fill(struct fast *fast, int k)
             for (int v = y * factor; v < (y + 1) * factor; v++)
                 for (int u = x * factor; u < (x + 1) * factor; u++) {
                     if (u >= width || v >= height)
-                        rate.phong_low = -1;
+                        rate.border = true;
                     else if (k == 0)
                         rate_add(&rate, rate_of_pixel(fast->filter, u, v));
                     else
@@ -214,10 +230,8 @@ static struct rate rate_of_block(const struct fast *fast, int x, int y, int k)
 {
     const struct filter_options *options = fast->filter->options;
     struct rate rate = fast->rates[k][(size_t)y * (size_t)fast->across[k] + (size_t)x];
-    if (options->phong_override || !fast->filter->gbuffer->phong.pixels) {
-        rate.phong_low = rate.phong_low < 0 ? -1 : options->phong;
-        rate.phong_high = rate.phong_high < 0 ? -1 : options->phong;
-    }
+    if (rate.phong_high >= 0 && (options->phong_override || !fast->filter->gbuffer->phong.pixels))
+        rate.phong_low = rate.phong_high = options->phong;
     return rate;
 }
 
@@ -256,110 +270,82 @@ static const struct sight *sight_of(struct worker *worker, int x, int y)
 static bool sight_add(struct worker *worker, struct block *block, int x, int y)
 {
     const struct sight *sight = sight_of(worker, x, y);
-    block->sights[block->group.sights++] = sight;
+    block->sights[block->sight_count++] = sight;
     return sight != NULL;
 }
 
-/* The four corners of the lattice's square that the block lies in, for the pixels that they are alike to. False, and
- * nothing added: for some pixel of the block that is less than half of what there should be. */
-static bool corners_add(struct worker *worker, struct block *block, int pitch, double limit, bool at_any_rate,
-                        bool found[LANES])
+/* The share of the sight of corner (x, y), c, that will be the block's next one, for the pixels that are alike to it,
+ * but for those with one of their own. Whether there are any. */
+static bool corner_share(const struct filter *filter, const struct block *block, int size, int c, int x, int y,
+                         const bool own[LANES], struct pixels *pixels, bool found[LANES])
 {
-    const struct filter *filter = worker->fast->filter;
-    const int left = block->left / pitch * pitch, top = block->top / pitch * pitch;
-    const int xs[2] = {left, left + pitch < filter->taps.width ? left + pitch : filter->taps.width - 1};
-    const int ys[2] = {top, top + pitch < filter->taps.height ? top + pitch : filter->taps.height - 1};
-    double weights[4][LANES] = {{0}}, total[LANES] = {0};
-    bool enough = true;
+    bool any = false;
     for (int l = 0; l < LANES; l++) {
-        if (!block->used[l])
+        const double right = (double)(pixels->xs[l] - block->left) / size;
+        const double down = (double)(pixels->ys[l] - block->top) / size;
+        const double weight = (c & 1 ? right : 1 - right) * (c >> 1 ? down : 1 - down);
+        if (!pixels->used[l] || own[l] || !(weight > 0) ||
+            !is_alike(filter, x, y, pixels->xs[l], pixels->ys[l], lent_most))
             continue;
-        const double right = (double)(block->xs[l] - left) / pitch, down = (double)(block->ys[l] - top) / pitch;
-        for (int c = 0; c < 4; c++) {
-            if (!is_alike(filter, xs[c & 1], ys[c >> 1], block->xs[l], block->ys[l], limit))
-                continue;
-            weights[c][l] = (c & 1 ? right : 1 - right) * (c >> 1 ? down : 1 - down);
-            total[l] += weights[c][l];
-        }
-        enough = enough && total[l] > 0.5;
+        pixels->group.share[block->sight_count][l] = (float)weight;
+        any = found[l] = true;
     }
-    if (!enough && !at_any_rate)
-        return false;
-    for (int c = 0; c < 4; c++) {
-        bool seen = false;
-        for (int l = 0; l < LANES; l++) {
-            if (!(weights[c][l] > 0.01))
-                continue;
-            block->group.share[block->group.sights][l] = (float)weights[c][l];
-            seen = found[l] = true;
-        }
-        if (seen && !sight_add(worker, block, xs[c & 1], ys[c >> 1]))
-            return true;
-    }
-    return true;
+    return any;
 }
 
-/* How the block's pixels see: by the coarsest lattice that is fine enough; those that no corner is alike to, by one of
- * their own. The shares of each lane's sights come to 1. */
-static void sights_choose(struct worker *worker, struct block *block, int size)
+/* The shares of each lane's sights come to 1. */
+static void shares_complete(struct pixels *pixels, int sight_count)
 {
-    const struct filter *filter = worker->fast->filter;
-    const struct settings *settings = worker->fast->settings;
-    bool found[LANES] = {false}, chosen = false;
-    for (int pitch = LARGEST; pitch >= size && !chosen; pitch /= 2) {
-        const bool last = pitch == size;
-        chosen = corners_add(worker, block, pitch, (double)(last ? settings->akin : settings->alike), last, found);
-    }
-    for (int l = 0; l < LANES && !worker->out_of_memory; l++) {
-        if (!block->used[l] || found[l])
-            continue;
-        for (int m = l; m < LANES; m++)
-            if (block->used[m] && !found[m] &&
-                (m == l || is_alike(filter, block->xs[l], block->ys[l], block->xs[m], block->ys[m],
-                                    (double)settings->akin))) {
-                block->group.share[block->group.sights][m] = 1;
-                found[m] = true;
-            }
-        sight_add(worker, block, block->xs[l], block->ys[l]);
-    }
+    pixels->group.sights = sight_count;
     for (int l = 0; l < LANES; l++) {
         float total = 0;
-        for (int s = 0; s < block->group.sights; s++)
-            total += block->group.share[s][l];
-        for (int s = 0; s < block->group.sights && total > 0; s++)
-            block->group.share[s][l] /= total;
+        for (int s = 0; s < sight_count; s++)
+            total += pixels->group.share[s][l];
+        for (int s = 0; s < sight_count && total > 0; s++)
+            pixels->group.share[s][l] /= total;
     }
+}
+
+/* How the block's pixels see: by its corners, or those of the lattice by one of their own: where no corner is alike to
+ * them, and where `own` says so. False: to a pixel between no corner is alike. */
+static bool sights_choose(struct worker *worker, struct block *block, int size, const bool own[LANES])
+{
+    static const bool none[LANES] = {false};
+    const struct filter *filter = worker->fast->filter;
+    const int left = block->left, top = block->top;
+    const int xs[2] = {left, left + size < filter->taps.width ? left + size : filter->taps.width - 1};
+    const int ys[2] = {top, top + size < filter->taps.height ? top + size : filter->taps.height - 1};
+    bool found[LANES] = {false}, found_between[LANES] = {false};
+    block->sight_count = 0;
+    memset(block->lattice.group.share, 0, sizeof block->lattice.group.share);
+    for (int c = 0; c < 4; c++) {
+        const int x = xs[c & 1], y = ys[c >> 1];
+        bool any = corner_share(filter, block, size, c, x, y, own, &block->lattice, found);
+        if (block->between_count > 0)
+            any |= corner_share(filter, block, size, c, x, y, none, &block->between, found_between);
+        if (any && !sight_add(worker, block, x, y))
+            return true;
+    }
+    for (int l = 0; l < block->between_count; l++)
+        if (!found_between[l])
+            return false;
+    for (int l = 0; l < LANES; l++)
+        if (block->lattice.used[l] && !found[l]) {
+            block->lattice.group.share[block->sight_count][l] = 1;
+            if (!sight_add(worker, block, block->lattice.xs[l], block->lattice.ys[l]))
+                return true;
+        }
+    shares_complete(&block->lattice, block->sight_count);
+    shares_complete(&block->between, block->sight_count);
+    return true;
 }
 
 /* --- nodes --- */
 
-static void node_add(struct worker *worker, const struct filter_node *node, float column, float row,
-                     const float hidden[SIGHTS_OF_GROUP], bool visible)
-{
-    if (worker->count == worker->capacity) {
-        const int capacity = worker->capacity ? 2 * worker->capacity : 4096;
-        struct filter_node *nodes = realloc(worker->nodes, (size_t)capacity * sizeof *nodes);
-        worker->nodes = nodes ? nodes : worker->nodes;
-        float *shares = realloc(worker->hidden, (size_t)capacity * SIGHTS_OF_GROUP * sizeof *shares);
-        worker->hidden = shares ? shares : worker->hidden;
-        if (!nodes || !shares) {
-            worker->out_of_memory = true;
-            return;
-        }
-        worker->capacity = capacity;
-    }
-    memcpy(worker->hidden + (size_t)worker->count * SIGHTS_OF_GROUP, hidden, SIGHTS_OF_GROUP * sizeof *hidden);
-    struct filter_node *added = &worker->nodes[worker->count++];
-    *added = *node;
-    added->column = column;
-    added->row = row;
-    added->visible = visible;
-}
-
 /* About what a layer weighs in the middle lane's lobe, or somewhat more; 0: it is out of every lane's lobe. */
 static double layer_weight(const struct block *block, const struct filter_node *layer)
 {
-    const struct filter_lanes *lanes = &block->group.lanes;
+    const struct filter_lanes *lanes = &block->lattice.group.lanes;
     const int l = block->middle;
     const double v[3] = {(double)(layer->x - layer->w * lanes->a[0][l]), (double)(layer->y - layer->w * lanes->a[1][l]),
                          (double)(layer->z - layer->w * lanes->a[2][l])};
@@ -391,8 +377,8 @@ struct look {
 
 static struct look look_from(const struct block *block)
 {
-    struct look look = {.seen = block->everything, .visible = block->everything, .open_count = block->group.sights};
-    for (int s = 0; s < block->group.sights; s++)
+    struct look look = {.seen = block->everything, .visible = block->everything, .open_count = block->sight_count};
+    for (int s = 0; s < block->sight_count; s++)
         look.open[s] = (unsigned char)s;
     return look;
 }
@@ -436,6 +422,35 @@ static bool is_mixed(const struct fast *fast, const struct block *block, const s
     return weight > 0 && (spread || weight * (double)look->range > (double)fast->settings->hidden);
 }
 
+static void node_add(struct worker *worker, const struct block *block, const struct filter_node *node, float column,
+                     float row, const struct look *look)
+{
+    float low = 1, high = 0;
+    if (worker->count == worker->capacity) {
+        const int capacity = worker->capacity ? 2 * worker->capacity : 4096;
+        struct filter_node *nodes = realloc(worker->nodes, (size_t)capacity * sizeof *nodes);
+        worker->nodes = nodes ? nodes : worker->nodes;
+        float *shares = realloc(worker->hidden, (size_t)capacity * SIGHTS_OF_GROUP * sizeof *shares);
+        worker->hidden = shares ? shares : worker->hidden;
+        if (!nodes || !shares) {
+            worker->out_of_memory = true;
+            return;
+        }
+        worker->capacity = capacity;
+    }
+    memcpy(worker->hidden + (size_t)worker->count * SIGHTS_OF_GROUP, look->hidden, sizeof look->hidden);
+    for (int s = 0; s < block->sight_count; s++) {
+        low = look->hidden[s] < low ? look->hidden[s] : low;
+        high = look->hidden[s] > high ? look->hidden[s] : high;
+    }
+    struct filter_node *added = &worker->nodes[worker->count++];
+    *added = *node;
+    added->column = column;
+    added->row = row;
+    added->visible = look->visible;
+    added->unlike = high > low ? high - low : 0;
+}
+
 /* Adds the nodes of a cell of level k, or of its parts. */
 static void cell_walk(struct worker *worker, const struct block *block, int k, int x, int y, const struct look *whole)
 {
@@ -457,7 +472,7 @@ static void cell_walk(struct worker *worker, const struct block *block, int k, i
     if (!look.visible && away > block->reach_px)
         return;
     if (!cell) {
-        node_add(worker, &node, column, row, look.hidden, look.visible);
+        node_add(worker, block, &node, column, row, &look);
         return;
     }
     const bool large = size > block->finest && (float)size > (float)away * fast->settings->size;
@@ -469,17 +484,36 @@ static void cell_walk(struct worker *worker, const struct block *block, int k, i
     }
     for (int i = 0; i < 2; i++)
         if (cell->layer[i].solid > 0)
-            node_add(worker, &cell->layer[i], column, row, look.hidden, look.visible);
+            node_add(worker, block, &cell->layer[i], column, row, &look);
 }
 
 /* --- blocks --- */
 
-/* The block's pixels, `apart` pixels from each other. False: there is nothing to sum. */
+/* A pixel that is to be computed. */
+static bool pixel_add(struct fast *fast, struct block *block, struct pixels *pixels, int l, int x, int y)
+{
+    struct filter *filter = fast->filter;
+    if (!filter_is_inside(filter, x, y) || !filter_is_glossy(filter, x, y))
+        return false;
+    pixels->used[l] = filter_lane_fill(filter, x, y, l, &pixels->group.lanes);
+    if (!pixels->used[l]) {
+        filter_write_mirror(filter, x, y);
+        fast->known[pixel_of(fast, x, y)] = 1;
+        return false;
+    }
+    pixels->xs[l] = x;
+    pixels->ys[l] = y;
+    pixels->group.column[l] = (float)x;
+    pixels->group.row[l] = (float)y;
+    if (!(filter->options->without & FILTER_WITHOUT_POOL))
+        block->reach_px = (int)fmax(block->reach_px, ceil((double)image_row(&filter->radius, 0, y)[x]));
+    return true;
+}
+
+/* The block's lattice, `apart` pixels from each other. False: there is nothing to sum. */
 static bool block_fill(struct fast *fast, int x, int y, int apart, struct block *block)
 {
     struct filter *filter = fast->filter;
-    struct filter_lanes *lanes = &block->group.lanes;
-    const unsigned without = filter->options->without;
     double phong_most_used = 0;
     bool any = false;
     *block = (struct block){.left = x,
@@ -487,30 +521,52 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
                             .right = x + (SIDE - 1) * apart,
                             .bottom = y + (SIDE - 1) * apart,
                             .finest = apart > 2 ? apart / 2 : 1,
-                            .everything = without & FILTER_WITHOUT_VISIBILITY};
-    *lanes = filter_lanes_empty(x, y);
+                            .everything = filter->options->without & FILTER_WITHOUT_VISIBILITY};
+    block->lattice.group.lanes = block->between.group.lanes = filter_lanes_empty(x, y);
     for (int l = 0; l < LANES; l++) {
-        const int u = block->xs[l] = x + l % SIDE * apart, v = block->ys[l] = y + l / SIDE * apart;
-        block->group.column[l] = (float)u;
-        block->group.row[l] = (float)v;
-        if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v))
+        const int u = x + l % SIDE * apart, v = y + l / SIDE * apart;
+        if (!pixel_add(fast, block, &block->lattice, l, u, v))
             continue;
-        block->used[l] = filter_lane_fill(filter, u, v, l, lanes);
-        if (!block->used[l]) {
-            filter_write_mirror(filter, u, v);
-            fast->known[pixel_of(fast, u, v)] = 1;
-            continue;
-        }
         if (!any || l == LANES / 2)
             block->middle = l;
         any = true;
         phong_most_used = fmax(phong_most_used, filter_exponent_at(filter, u, v));
-        if (!(without & FILTER_WITHOUT_POOL))
-            block->reach_px = (int)fmax(block->reach_px, ceil((double)image_row(&filter->radius, 0, v)[u]));
     }
     block->lobe = lobe_integral(phong_most_used, filter->floor);
     block->spread_limit = fast->settings->spread * fast->settings->spread / (float)fmax(phong_most_used, 1);
     return any;
+}
+
+/* Of the two pixels that level_fill() takes the mean of for pixel (x, y), but (0, 0), how far they are from it. */
+static void neighbours_of(int x, int y, int *dx, int *dy)
+{
+    const int both = x | y, apart = both & -both; /* the largest power of two that divides both */
+    *dx = y % (2 * apart) == 0 ? apart : 0;
+    *dy = *dx > 0 ? 0 : apart;
+}
+
+/* What lies between the lattice's pixels and can't be interpolated. False: that is too much. */
+static bool between_fill(struct fast *fast, int apart, struct block *block)
+{
+    const struct filter *filter = fast->filter;
+    const int size = SIDE * apart;
+    for (int y = block->top; y < block->top + size; y++)
+        for (int x = block->left; x < block->left + size; x++) {
+            int dx, dy;
+            if ((x % apart == 0 && y % apart == 0) || !filter_is_inside(filter, x, y) ||
+                !filter_is_glossy(filter, x, y))
+                continue;
+            neighbours_of(x, y, &dx, &dy);
+            if (is_alike(filter, x, y, x - dx, y - dy, between_most) &&
+                is_alike(filter, x, y, x + dx, y + dy, between_most))
+                continue;
+            if (block->between_count == LANES)
+                return false;
+            block->between_count += pixel_add(fast, block, &block->between, block->between_count, x, y);
+        }
+    block->right = block->left + size - 1;
+    block->bottom = block->top + size - 1;
+    return true;
 }
 
 /* What brings a shift from a pixel to the next to that over a block of level k, of how far things may. */
@@ -519,55 +575,96 @@ static float shift_scale(const struct fast *fast, const struct rate *rate, int k
     return (float)(SIDE << k) * sqrtf(fmaxf(rate->phong_high, 1)) / fast->settings->smooth;
 }
 
-/* Computes the 16 pixels of a block of level k. False: what it sees is too near for so large a block. */
-static bool block_compute(struct worker *worker, const struct rate *rate, int x, int y, int k)
+/* Whether a part of what lane l sees is more than `limit` of it. */
+static bool is_more(const struct pixels *pixels, const struct filter_moments *seen, const float part[LANES], int l,
+                    float limit)
+{
+    return pixels->used[l] && part[l] > limit * (float)seen->value[FILTER_MOMENT_1][l];
+}
+
+/* What the pixels of the lattice see, from the block's corners or by their own sight, and of which nodes. False: those
+ * between aren't seen for from the corners. */
+static bool block_see(struct worker *worker, struct block *block, int k, const bool own[LANES],
+                      struct filter_moments *seen)
+{
+    struct fast *fast = worker->fast;
+    const int top = CELL_LEVELS - 1;
+    if (!block->everything && !sights_choose(worker, block, SIDE << k, own))
+        return false;
+    worker->count = 0;
+    const struct look whole = look_from(block);
+    for (int v = 0; v < fast->cells.height[top] && !worker->out_of_memory; v++)
+        for (int u = 0; u < fast->cells.width[top]; u++)
+            cell_walk(worker, block, top, u, v, &whole);
+    if (!worker->out_of_memory)
+        fast->filter->sight->see(worker->nodes, worker->hidden, worker->count, &block->lattice.group, seen);
+    return true;
+}
+
+static void pixels_write(struct worker *worker, struct pixels *pixels, const struct filter_moments *seen)
 {
     struct fast *fast = worker->fast;
     struct filter *filter = fast->filter;
-    struct block block;
-    struct filter_moments seen;
     struct filter_sums pool = {0};
     struct filter_help help[LANES] = {{0}};
     bool any_help = false;
-    float unsteady = 0;
-    if (!block_fill(fast, x, y, 1 << k, &block))
-        return true;
-    if (!block.everything)
-        sights_choose(worker, &block, SIDE << k);
-    worker->count = 0;
-    const struct look whole = look_from(&block);
-    const int top = CELL_LEVELS - 1;
-    for (int v = 0; v < fast->cells.height[top] && !worker->out_of_memory; v++)
-        for (int u = 0; u < fast->cells.width[top]; u++)
-            cell_walk(worker, &block, top, u, v, &whole);
-    if (worker->out_of_memory)
-        return true;
-    block.group.turn = rate->turn * shift_scale(fast, rate, k);
-    block.group.move = rate->move * shift_scale(fast, rate, k);
-    filter->sight->see(worker->nodes, worker->hidden, worker->count, &block.group, &seen);
-    for (int l = 0; l < LANES; l++)
-        if (block.used[l] && seen.value[FILTER_MOMENT_1][l] > 0)
-            unsteady = fmaxf(unsteady, block.group.unsteady[l] / (float)seen.value[FILTER_MOMENT_1][l]);
-    if (k > 0 && unsteady > fast->settings->unsteady)
-        return false;
     for (int l = 0; l < LANES; l++) {
-        if (!block.used[l])
+        if (!pixels->used[l])
             continue;
-        help[l] = filter_help_needed(filter, block.xs[l], block.ys[l], seen.value[FILTER_MOMENT_1][l]);
+        help[l] = filter_help_needed(filter, pixels->xs[l], pixels->ys[l], seen->value[FILTER_MOMENT_1][l]);
         if (help[l].share == 0 && help[l].missing == 0)
             continue;
-        const double radius = (double)image_row(&filter->radius, 0, block.ys[l])[block.xs[l]];
-        block.group.lanes.limit[l] = (float)(radius * radius);
+        const double radius = (double)image_row(&filter->radius, 0, pixels->ys[l])[pixels->xs[l]];
+        pixels->group.lanes.limit[l] = (float)(radius * radius);
         any_help = true;
     }
     if (any_help)
-        filter->sight->pool(worker->nodes, worker->count, &block.group, &pool);
+        filter->sight->pool(worker->nodes, worker->count, &pixels->group, &pool);
     for (int l = 0; l < LANES; l++) {
-        if (!block.used[l])
+        if (!pixels->used[l])
             continue;
-        filter_write_best(filter, block.xs[l], block.ys[l], l, &seen, &pool, help[l]);
-        fast->known[pixel_of(fast, block.xs[l], block.ys[l])] = 1;
+        filter_write_best(filter, pixels->xs[l], pixels->ys[l], l, seen, &pool, help[l]);
+        fast->known[pixel_of(fast, pixels->xs[l], pixels->ys[l])] = 1;
     }
+}
+
+/* Computes the pixels of a block of level k. False: what it sees is too near for so large a block, or is seen too
+ * differently from its corners, or too much of it can't be interpolated. */
+static bool block_compute(struct worker *worker, const struct rate *rate, int x, int y, int k)
+{
+    struct fast *fast = worker->fast;
+    const struct settings *settings = fast->settings;
+    struct block block;
+    struct pixels *lattice = &block.lattice, *between = &block.between;
+    struct filter_moments seen = {0}, seen_between = {0};
+    bool own[LANES] = {false}, any_own = false, steady = true;
+    if (!block_fill(fast, x, y, 1 << k, &block))
+        return k == 0;
+    if (k > 0 && rate->border && !between_fill(fast, 1 << k, &block))
+        return false;
+    lattice->group.turn = rate->turn * shift_scale(fast, rate, k);
+    lattice->group.move = rate->move * shift_scale(fast, rate, k);
+    if (!block_see(worker, &block, k, own, &seen))
+        return false;
+    for (int l = 0; l < LANES; l++) {
+        own[l] = is_more(lattice, &seen, lattice->group.unlike, l, settings->unlike / 4);
+        any_own = any_own || is_more(lattice, &seen, lattice->group.unlike, l, settings->unlike);
+        steady = steady && !is_more(lattice, &seen, lattice->group.unsteady, l, settings->unsteady);
+    }
+    if (k > 0 && (any_own || !steady))
+        return false;
+    if (any_own)
+        block_see(worker, &block, k, own, &seen);
+    if (block.between_count > 0 && !worker->out_of_memory)
+        fast->filter->sight->see(worker->nodes, worker->hidden, worker->count, &between->group, &seen_between);
+    for (int l = 0; l < block.between_count; l++)
+        if (is_more(between, &seen_between, between->group.unlike, l, settings->unlike))
+            return false;
+    if (worker->out_of_memory)
+        return true;
+    pixels_write(worker, lattice, &seen);
+    if (block.between_count > 0)
+        pixels_write(worker, between, &seen_between);
     return true;
 }
 
@@ -582,7 +679,7 @@ static bool is_narrow(const struct fast *fast, const struct rate *rate, int x, i
         const int u = x + l % SIDE * SIDE, v = y + l / SIDE * SIDE;
         if (filter_is_inside(filter, u, v) && filter_is_glossy(filter, u, v) &&
             filter_lane_fill(filter, u, v, l, &lanes))
-            most = fmaxf(most, lanes.reach[l] / lanes.step[l]);
+            most = fmaxf(most, lanes.reach[l] / lanes.step[l] * fmaxf(lanes.reach[l] / narrow_reach, 1));
     }
     return rate->phong_high > phong_most || (most > 0 && most < few_pixels);
 }
@@ -604,7 +701,7 @@ static void block_do(struct worker *worker, int x, int y, int k)
     const struct filter_taps *taps = &fast->filter->taps;
     const int size = SIDE << k;
     if (x >= taps->width || y >= taps->height || worker->out_of_memory || interrupt_signal() ||
-        !filter_is_needed(fast->filter, x, y, size, size))
+        !filter_is_needed(fast->filter, x - REACH, y - REACH, size + 2 * REACH, size + 2 * REACH))
         return;
     const struct rate rate = rate_of_block(fast, x / size, y / size, k);
     if (rate.phong_high < 0)
@@ -681,7 +778,8 @@ static void level_fill(struct fast *fast, int k)
     for (int pass = 0; pass < 2; pass++)
         for (int y = pass == 0 ? 0 : half; y < fast->filter->taps.height; y += apart)
             for (int x = pass == 0 ? half : 0; x < fast->filter->taps.width; x += pass == 0 ? apart : half)
-                if (fast->apart[pixel_of(fast, x, y)] >= k && !fast->known[pixel_of(fast, x, y)])
+                if (fast->apart[pixel_of(fast, x, y)] >= k && !fast->known[pixel_of(fast, x, y)] &&
+                    filter_is_glossy(fast->filter, x, y))
                     interpolate(fast, x, y, pass == 0 ? half : 0, pass == 0 ? 0 : half);
 }
 

@@ -256,25 +256,36 @@ void CONCATENATE(filter_kernel_, FILTER_KERNEL_ISA)(const struct filter_taps *ta
 
 /* --- what a sees --- */
 
-/* tan^2 of the largest angle on the way to one tap and at it, for all lanes. Rows of these are indexed by dx. */
+/* The share that is hidden of what lies beyond one tap, for all lanes. Rows of these are indexed by dx. */
 typedef float state[FILTER_LANES];
 
-/* Both neighbours towards the lanes' own pixels that a straight line from there may come through; twice the same where
- * there is one. */
+/* Both neighbours between which the straight line from the lanes' own pixels comes in, twice the same where it comes
+ * through one, and how near to the second, 0 to 1. */
 struct way {
     const float *first, *second;
+    float share;
 };
 
 ALWAYS_INLINE struct way way_to(state *here, state *above, int dx, int dy)
 {
-    int inward = dx > 0 ? -1 : 1, column = dx < 0 ? -dx : dx;
+    const int inward = dx > 0 ? -1 : 1, column = dx < 0 ? -dx : dx;
     if (dx == 0)
-        return (struct way){above[dx], above[dx]};
+        return (struct way){above[dx], above[dx], 0};
     if (dy == 0)
-        return (struct way){here[dx + inward], here[dx + inward]};
+        return (struct way){here[dx + inward], here[dx + inward], 0};
     if (column == dy)
-        return (struct way){above[dx + inward], above[dx + inward]};
-    return (struct way){above[dx + inward], column < dy ? above[dx] : here[dx + inward]};
+        return (struct way){above[dx + inward], above[dx + inward], 0};
+    if (column < dy)
+        return (struct way){above[dx], above[dx + inward], (float)((double)column / dy)};
+    return (struct way){here[dx + inward], above[dx + inward], (float)((double)dy / column)};
+}
+
+/* The share that is hidden of what lies beyond a tap at tan^2(theta) = t, if `before` is of the tap itself. */
+ALWAYS_INLINE float hidden_share(const struct filter_lanes *lanes, int l, float t, float before)
+{
+    float hidden = 1.0f - (lanes->blind[l] - t) * lanes->fade[l];
+    hidden = hidden > before ? hidden : before;
+    return hidden < 1.0f ? hidden : 1.0f;
 }
 
 /* log2(1 + t) for t up to FILTER_NARROW_REACH, within 3e-7; anything beyond. */
@@ -289,9 +300,8 @@ ALWAYS_INLINE float narrow_log2_of_1_plus(float t)
     return p * t;
 }
 
-/* One tap for all lanes, `separation` pixels^2 away; `least` is lowered to its state, which is infinite where the lane
- * is blind. Where no endpoint is known the angle is what a surface that goes on unchanged would give for the farthest
- * things. */
+/* One tap for all lanes, `separation` pixels^2 away; `least` is lowered to its state. Where no endpoint is known the
+ * angle is what a surface that goes on unchanged would give for the farthest things. */
 ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
                            float separation, bool narrow, bool mixed, const float *restrict before,
                            float *restrict own, float *restrict least, float (*sums)[FILTER_LANES],
@@ -305,7 +315,7 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
     _Alignas(64) float largest[FILTER_LANES]; /* nothing else can lie here: no check stands before the vectors */
     for (int l = 0; l < FILTER_LANES; l++) {
         const struct angle angle = tap_angle(taps, lanes, tap, l, mixed);
-        float c = angle.c, qq = angle.qq, high = before[l], reach = lanes->reach[l];
+        float c = angle.c, qq = angle.qq, reach = lanes->reach[l];
         float far = lanes->step[l] * separation;
         float t = qq / (c * c);
         t = t < 0x1p100f ? t : 0x1p100f; /* also NaN */
@@ -313,16 +323,12 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
         float f = power_to_weight(-lanes->slope[l] * (narrow ? narrow_log2_of_1_plus(t) : log2_of_1_plus(t)));
         f -= lanes->floor;
         f = f > 0.0f ? f : 0.0f;
-        float seen = (lanes->blind[l] - high) * lanes->fade[l];
-        seen = seen > 0.0f ? seen : 0.0f;
-        f = seen < 1.0f ? f * seen : f;
+        f *= 1.0f - before[l];
         f = t <= reach ? f : 0.0f;
         f *= solid_angle(area[l], nearest[l], c, qq);
-        t = area[l] > 0.0f ? t : far;
-        t = t > high ? t : high;
-        t = t <= lanes->blind[l] ? t : INFINITY;
-        largest[l] = t;
-        least[l] = t < least[l] ? t : least[l];
+        float hidden = hidden_share(lanes, l, area[l] > 0.0f ? t : far, before[l]);
+        largest[l] = hidden;
+        least[l] = hidden < least[l] ? hidden : least[l];
         float place = c / (c * c + qq + FLT_MIN);
         float u = place * (angle.x * lanes->across[0][0][l] + angle.y * lanes->across[0][1][l] +
                            angle.z * lanes->across[0][2][l]);
@@ -360,11 +366,9 @@ ALWAYS_INLINE void see_nothing(const struct filter_lanes *lanes, float separatio
                                float *restrict own, float *restrict least)
 {
     for (int l = 0; l < FILTER_LANES; l++) {
-        float t = lanes->step[l] * separation;
-        t = t > before[l] ? t : before[l];
-        t = t <= lanes->blind[l] ? t : INFINITY;
-        own[l] = t;
-        least[l] = t < least[l] ? t : least[l];
+        float hidden = hidden_share(lanes, l, lanes->step[l] * separation, before[l]);
+        own[l] = hidden;
+        least[l] = hidden < least[l] ? hidden : least[l];
     }
 }
 
@@ -378,12 +382,12 @@ ALWAYS_INLINE bool see_columns(const struct filter_taps *taps, const struct filt
     size_t row = (size_t)(lanes->y + dy) * taps->stride;
     int away = abs(dy), step = last < first ? -1 : 1, count = abs(last - first) + 1;
     for (int l = 0; l < FILTER_LANES; l++)
-        least[l] = INFINITY;
+        least[l] = 1.0f;
     for (int i = 0, dx = first; i < count; i++, dx += step) {
         float separation = (float)dx * (float)dx + (float)dy * (float)dy;
         struct way way = way_to(here, above, dx, away);
         for (int l = 0; l < FILTER_LANES; l++)
-            before[l] = way.first[l] < way.second[l] ? way.first[l] : way.second[l];
+            before[l] = way.first[l] + way.share * (way.second[l] - way.first[l]);
         if (nothing)
             see_nothing(lanes, separation, before, here[dx], least);
         else
@@ -393,10 +397,10 @@ ALWAYS_INLINE bool see_columns(const struct filter_taps *taps, const struct filt
     for (int i = 0; i < FILTER_MOMENTS && !nothing; i++)
         for (int l = 0; l < FILTER_LANES; l++)
             sums->value[i][l] += (double)partial[i][l];
-    float smallest = INFINITY;
+    float smallest = 1.0f;
     for (int l = 0; l < FILTER_LANES; l++)
         smallest = least[l] < smallest ? least[l] : smallest;
-    return smallest < INFINITY;
+    return smallest < 1.0f;
 }
 
 typedef bool see_columns_function(const struct filter_taps *taps, const struct filter_lanes *lanes, int first, int last,
@@ -441,18 +445,18 @@ static int chunk_column(const struct side *side, int chunk)
     return side->step > 0 ? chunk * CHUNK : -1 - chunk * CHUNK;
 }
 
-static bool any_live(const float *angles)
+static bool any_live(const float *hidden)
 {
     bool live = false;
     for (int l = 0; l < FILTER_LANES; l++)
-        live = live || angles[l] < INFINITY;
+        live = live || hidden[l] < 1.0f;
     return live;
 }
 
 static void close_column(state *row, int dx)
 {
     for (int l = 0; l < FILTER_LANES; l++)
-        row[dx][l] = INFINITY;
+        row[dx][l] = 1.0f;
 }
 
 static void close_chunk(const struct side *side, int chunk, state *row)

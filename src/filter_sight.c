@@ -1,7 +1,8 @@
 /* What one pixel's a sees, by marching outward over the picture, and sums over clusters of taps.
  *
  * In a march the taps of one row are the lanes: a way to them comes from the row before alone, for they are no farther
- * from the eye's column than from its row. How much of each tap's own share is seen is found tile by tile, before. In the sums the lanes are output pixels, as in filter_kernel.c.
+ * from the eye's column than from its row. How much of each tap's own share is seen is found tile by tile, before. In
+ * the sums the lanes are output pixels, as in filter_kernel.c.
  */
 #include "filter_sight.h"
 
@@ -47,55 +48,61 @@ ALWAYS_INLINE void own_lanes(const float *px, const float *py, const float *pz, 
 }
 
 /* The same of a tile whose first pixel is dx, dy off the eye's. By its cells, where no tap's share is off by more than
- * a hundredth for that. */
+ * three hundredths for that. */
 static void own_tile(const struct sight_tile *tile, const struct sight_taps *taps, int dx, int dy,
                      const struct sight_eye *eye, uint8_t own[SIGHT_TILE_AREA])
 {
-    static const float all[LANES] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, none[LANES] = {0};
-    _Alignas(64) float far[LANES], along[LANES], columns[LANES];
+    _Alignas(64) float far[LANES], along[LANES], unused[LANES];
     _Alignas(16) uint8_t cells[LANES];
-    if (tile->off < INFINITY) {
-        uint32_t least = UINT32_MAX; /* positive floats are in the order of their bits */
-        for (int l = 0; l < LANES; l++) {
-            const float right = (float)(dx + l % 4 * 4) + 1.5f, down = (float)(dy + l / 4 * 4) + 1.5f;
-            far[l] = eye->step * (right * right + down * down);
-        }
-        own_lanes(tile->cells[0], tile->cells[1], tile->cells[2], tile->cells[3], tile->empty ? none : all, far, eye,
-                  along, cells);
-        for (int l = 0; l < LANES; l++)
-            least = bits_of(fabsf(along[l])) < least ? bits_of(fabsf(along[l])) : least;
-        if (tile->empty || tile->off * eye->steepest <= 0.01f * float_of(least)) {
-            for (int i = 0; i < 4; i++)
-                for (int r = 0; r < 4; r++)
-                    for (int j = 0; j < 4; j++)
-                        memset(own + (4 * i + r) * SIGHT_TILE + 4 * j, cells[4 * i + j], 4);
-            return;
-        }
+    for (int l = 0; l < LANES; l++) {
+        const float right = (float)(dx + l % 4 * 4) + 1.5f, down = (float)(dy + l / 4 * 4) + 1.5f;
+        far[l] = eye->step * (right * right + down * down);
     }
-    for (int l = 0; l < LANES; l++)
-        columns[l] = (float)(dx + l) * (float)(dx + l);
-    for (int r = 0; r < SIGHT_TILE; r++) {
-        const int i = r * SIGHT_TILE;
-        const float row = (float)(dy + r) * (float)(dy + r);
-        for (int l = 0; l < LANES; l++)
-            far[l] = eye->step * (columns[l] + row);
-        own_lanes(taps->planes[0] + i, taps->planes[1] + i, taps->planes[2] + i, taps->planes[3] + i,
-                  taps->planes[4] + i, far, eye, along, own + i);
+    own_lanes(tile->cells[0], tile->cells[1], tile->cells[2], tile->cells[3], tile->cells[4], far, eye, along, cells);
+    for (int row = 0; row < 4; row++) {
+        uint8_t *out = own + row * 4 * SIGHT_TILE;
+        float least = INFINITY;
+        for (int j = 0; j < 4; j++)
+            least = fabsf(along[4 * row + j]) < least ? fabsf(along[4 * row + j]) : least;
+        if (tile->off[row] * eye->steepest <= 0.03f * least) {
+            for (int j = 0; j < 4; j++)
+                memset(out + 4 * j, cells[4 * row + j], 4);
+            for (int r = 1; r < 4; r++)
+                memcpy(out + r * SIGHT_TILE, out, SIGHT_TILE);
+            continue;
+        }
+        for (int r = 4 * row; r < 4 * row + 4; r++) {
+            const int i = r * SIGHT_TILE;
+            for (int l = 0; l < LANES; l++)
+                far[l] = eye->step * ((float)(dx + l) * (float)(dx + l) + (float)(dy + r) * (float)(dy + r));
+            own_lanes(taps->planes[0] + i, taps->planes[1] + i, taps->planes[2] + i, taps->planes[3] + i,
+                      taps->planes[4] + i, far, eye, unused, own + i);
+        }
     }
 }
 
-/* STRIP columns of one row: what is hidden on the way to each and at it, from the row before's, of which `inward` is
- * one column nearer to the eye's; and what that hides of it. A difference of one is rounding. */
-ALWAYS_INLINE void march_strip(const uint8_t *before, const uint8_t *inward, const uint8_t *own,
-                               uint8_t *restrict state, uint8_t *restrict hidden)
+/* What is hidden beyond a tap, in a march: of BLIND. What hides as good as all hides all. */
+enum { STATE = 257, BLIND = STATE * SIGHT_HIDDEN, AS_GOOD_AS_BLIND = BLIND - STATE };
+
+/* STRIP columns of one row, the first `away` columns from the eye's and the others farther by `turn` each: what is
+ * hidden beyond each, from the row before's, of which `inward` is one column nearer to the eye's; and of its own share
+ * what the way to it hides. The straight line comes in so near to `inward`: slope times the columns away, of 65535. */
+ALWAYS_INLINE void march_strip(const uint16_t *before, const uint16_t *inward, const uint8_t *own, int away, int turn,
+                               float slope, uint16_t *restrict state, uint8_t *restrict hidden)
 {
+    _Alignas(64) uint16_t near[STRIP];
     for (int i = 0; i < STRIP; i++) {
-        uint8_t way = before[i] < inward[i] ? before[i] : inward[i];
-        uint8_t most = way > own[i] ? way : own[i];
-        uint8_t lost = (uint8_t)(most - own[i]);
-        lost = lost > 1 ? lost : 0;
-        state[i] = most;
-        hidden[i] = way == SIGHT_HIDDEN ? SIGHT_HIDDEN : lost;
+        float share = slope * (float)(away + turn * i);
+        near[i] = (uint16_t)(int32_t)(share < 65535.0f ? share : 65535.0f);
+    }
+    for (int i = 0; i < STRIP; i++) {
+        uint16_t rest = (uint16_t)(65535 - near[i]), at = (uint16_t)(own[i] * STATE);
+        uint16_t first = (uint16_t)((uint32_t)before[i] * rest >> 16);
+        uint16_t way = (uint16_t)(first + ((uint32_t)inward[i] * near[i] >> 16));
+        uint16_t most = way > at ? way : at;
+        uint8_t lost = (uint8_t)((most - at) >> 8);
+        state[i] = most < AS_GOOD_AS_BLIND ? most : BLIND;
+        hidden[i] = way < AS_GOOD_AS_BLIND ? lost : SIGHT_HIDDEN;
     }
 }
 
@@ -122,12 +129,12 @@ static void copy_rows(uint8_t *to, size_t to_pitch, const uint8_t *from, size_t 
 }
 
 /* Whether nothing is seen on the way into the tile whose first column is at `before`, nor into those beside it. */
-static bool is_dark(const uint8_t *before)
+static bool is_dark(const uint16_t *before)
 {
-    uint8_t least = SIGHT_HIDDEN;
+    uint16_t least = BLIND;
     for (int i = -SIGHT_TILE; i < 2 * SIGHT_TILE; i++)
         least = before[i] < least ? before[i] : least;
-    return least == SIGHT_HIDDEN;
+    return least == BLIND;
 }
 
 static void march(const struct sight_field *field, int x, int y, int step, int limit, const struct sight_eye *eye,
@@ -135,11 +142,11 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
 {
     /* By columns. All is hidden in `before` and `state` beyond the tiles of a band, as far as a strip reaches. */
     const size_t pitch = (size_t)field->width + 3 * SIGHT_MARGIN;
-    uint8_t *before = scratch + SIGHT_MARGIN, *state = before + pitch;
-    uint8_t *own = state + pitch, *hidden = own + SIGHT_TILE * pitch;
+    uint16_t *before = (uint16_t *)(void *)scratch + SIGHT_MARGIN, *state = before + pitch;
+    uint8_t *own = (uint8_t *)(state + pitch), *hidden = own + SIGHT_TILE * pitch;
     const int rows = step < 0 ? y : field->height - 1 - y, end = rows < limit ? rows : limit;
     int first = x, last = x; /* columns that are seen of the row before */
-    memset(scratch, SIGHT_HIDDEN, (2 + 2 * SIGHT_TILE) * pitch);
+    memset(scratch, 0xff, 2 * sizeof *before * pitch);
     before[x] = 0;
     for (int k = 1; k <= end && first <= last;) {
         const int band = (y + step * k) / SIGHT_TILE, top = band * SIGHT_TILE;
@@ -149,7 +156,7 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
         const int to = (last + next - k < field->width ? last + next - k : field->width - 1) / SIGHT_TILE;
         const int left = from * SIGHT_TILE, right = (to + 1) * SIGHT_TILE;
         for (int i = 1; i <= SIGHT_MARGIN; i++)
-            before[left - i] = state[left - i] = before[right + i - 1] = state[right + i - 1] = SIGHT_HIDDEN;
+            before[left - i] = state[left - i] = before[right + i - 1] = state[right + i - 1] = BLIND;
         for (int tile = from; tile <= to; tile++) {
             const ptrdiff_t index = band * field->row + tile * field->column;
             const int across = tile * SIGHT_TILE - x, down = top - y;
@@ -163,18 +170,23 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
                 transpose(shares);
             copy_rows(own + tile * SIGHT_TILE, pitch, shares, SIGHT_TILE);
         }
+        for (int r = 0; r < SIGHT_TILE; r++)
+            if (step * (top + r - y) < k || step * (top + r - y) >= next)
+                memset(hidden + (size_t)r * pitch + left, SIGHT_HIDDEN, (size_t)(right - left));
         for (; k < next; k++) {
             const size_t at = (size_t)(y + step * k - top) * pitch;
+            const float slope = (float)(65535.0 / k);
             for (int i = left; i < x; i += STRIP)
-                march_strip(before + i, before + i + 1, own + at + i, state + i, hidden + at + i);
-            march_strip(before + x, before + x, own + at + x, state + x, hidden + at + x);
-            for (int i = x + 1; i < right; i += STRIP)
-                march_strip(before + i, before + i - 1, own + at + i, state + i, hidden + at + i);
-            uint8_t *swap = before;
+                march_strip(before + i, before + i + 1, own + at + i, x - i, -1, slope, state + i, hidden + at + i);
+            for (int i = x; i < right; i += STRIP)
+                march_strip(before + i, before + i - 1, own + at + i, i - x, 1, slope, state + i, hidden + at + i);
+            uint16_t *swap = before;
             before = state;
             state = swap;
         }
         for (int tile = from; tile <= to; tile++) {
+            if (field->tiles[band * field->row + tile * field->column].empty)
+                continue;
             uint8_t *shares = map + (band * field->row + tile * field->column) * SIGHT_TILE_AREA;
             _Alignas(64) uint8_t found[SIGHT_TILE_AREA];
             copy_rows(found, SIGHT_TILE, hidden + tile * SIGHT_TILE, pitch);
@@ -183,9 +195,9 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
             for (int i = 0; i < SIGHT_TILE_AREA; i++)
                 shares[i] = found[i] < shares[i] ? found[i] : shares[i];
         }
-        for (first = left; first < right && before[first] == SIGHT_HIDDEN;)
+        for (first = left; first < right && before[first] == BLIND;)
             first++;
-        for (last = right - 1; last >= first && before[last] == SIGHT_HIDDEN;)
+        for (last = right - 1; last >= first && before[last] == BLIND;)
             last--;
         extent->left = from < extent->left ? from : extent->left;
         extent->right = to > extent->right ? to : extent->right;
@@ -263,8 +275,11 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
                             float (*restrict sums)[LANES], struct filter_moments *restrict range)
 {
     const struct filter_lanes *lanes = &group->lanes;
-    _Alignas(64) float lost[LANES] = {0}, weight[LANES], u[LANES], v[LANES];
-    for (int s = 0; s < group->sights; s++)
+    _Alignas(64) float lost[LANES], there[LANES], weight[LANES], u[LANES], v[LANES];
+    const int sights = node->unlike > 0 ? group->sights : 0;
+    for (int l = 0; l < LANES; l++)
+        lost[l] = sights > 0 ? 0.0f : hidden[0];
+    for (int s = 0; s < sights; s++)
         for (int l = 0; l < LANES; l++)
             lost[l] += group->share[s][l] * hidden[s];
     for (int l = 0; l < LANES; l++) {
@@ -276,9 +291,11 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
         f = f > 0.0f ? f : 0.0f;
         f = t <= lanes->reach[l] ? f : 0.0f;
         float share = (lanes->blind[l] - t) * lanes->fade[l];
-        share = (share < 1.0f ? share : 1.0f) - lost[l];
-        share = share > 0.0f ? share : 0.0f;
-        weight[l] = f * share * enlarged(node, square);
+        share = clamp_share(share);
+        f *= enlarged(node, square);
+        there[l] = f * share;
+        share -= lost[l];
+        weight[l] = f * (share > 0.0f ? share : 0.0f);
         float scale = c / (square + FLT_MIN);
         u[l] = scale * (place.x * lanes->across[0][0][l] + place.y * lanes->across[0][1][l] +
                         place.z * lanes->across[0][2][l]);
@@ -286,11 +303,13 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
                         place.z * lanes->across[1][2][l]);
     }
     const float solid = node->solid, square = node->square;
-    const float unsteady = clamp_share(group->turn + group->move * node->w - 1);
+    const float unsteady = clamp_share(group->turn + group->move * node->w - 1), unlike = node->unlike * solid;
     for (int l = 0; l < LANES; l++)
         weight[l] *= solid;
-    for (int l = 0; l < LANES; l++)
+    for (int l = 0; l < LANES; l++) {
         group->unsteady[l] += weight[l] * unsteady;
+        group->unlike[l] += there[l] * unlike;
+    }
     for (int i = 0; i < 3; i++) {
         const float radiance = node->radiance[i];
         for (int l = 0; l < LANES; l++) {
@@ -323,6 +342,7 @@ static void see(const struct filter_node *nodes, const float *hidden, int count,
 {
     memset(sums, 0, sizeof *sums);
     memset(group->unsteady, 0, sizeof group->unsteady);
+    memset(group->unlike, 0, sizeof group->unlike);
     for (int i = 0; i < 3; i++)
         for (int l = 0; l < LANES; l++) {
             sums->low[i][l] = INFINITY;

@@ -19,18 +19,19 @@ enum {
 };
 
 /* Bytes of scratch of sight_march for pictures of `longest` pixels on their longer side. */
-#define SIGHT_SCRATCH(longest) ((2 + 2 * SIGHT_TILE) * ((size_t)(longest) + 3 * SIGHT_MARGIN))
+#define SIGHT_SCRATCH(longest) ((2 * sizeof(uint16_t) + 2 * SIGHT_TILE) * ((size_t)(longest) + 3 * SIGHT_MARGIN))
 
 /* 16 x 16 taps: x, y, z, w and area as in struct filter_taps, 0 beyond the picture. */
 struct sight_taps {
     float planes[5][SIGHT_TILE_AREA];
 };
 
-/* The means of 4 x 4 of them each. */
+/* The means of 4 x 4 of them each, of all five planes. */
 struct sight_tile {
-    float cells[4][FILTER_LANES];
-    float off;  /* no tap is farther from where its cell's mean and the tile's slope put it; INFINITY: not all are taps */
-    bool empty; /* none is a tap */
+    float cells[5][FILTER_LANES];
+    float off[4]; /* of a row of cells: no tap is farther from where its cell's mean and the row's slope put it;
+                     INFINITY: some are taps, and some aren't */
+    bool empty;   /* none is a tap */
 };
 
 /* The picture by rows, or by columns (`turned`: all that is of columns and rows is exchanged). */
@@ -57,8 +58,8 @@ struct sight_extent {
  * filter_see(): less than would be seen of it if all on the way were at its own angle. One of four wedges of the
  * picture: rows beyond y in the direction of `step` (1 or -1), as far from column x as from row y, to `limit` pixels
  * away. Where the taps of a tile lie as good as in a plane, those of a cell are taken to be at one angle. The shares
- * go to the map, SIGHT_TILE_AREA of each tile by rows of the picture, where they are less than what is there. *extent
- * grows by what was written. scratch: SIGHT_SCRATCH(longest) bytes. */
+ * go to the map, SIGHT_TILE_AREA of each tile with taps by rows of the picture, where they are less than what is there.
+ * *extent grows by what was looked at. scratch: SIGHT_SCRATCH(longest) bytes. */
 typedef void sight_march(const struct sight_field *field, int x, int y, int step, int limit,
                          const struct sight_eye *eye, uint8_t *scratch, uint8_t *map, struct sight_extent *extent);
 
@@ -78,6 +79,7 @@ struct filter_node {
     float square;
     float column, row;   /* middle, pixels */
     bool visible;        /* from any of the group's sights */
+    float unlike;        /* by how much of it the group's sights differ */
 };
 
 /* 16 pixels anywhere, and how they see: the hidden share of a node for lane l is the sum of share[s][l] times that in
@@ -88,7 +90,9 @@ struct filter_group {
     int sights;
     float share[SIGHTS_OF_GROUP][FILTER_LANES];
     float turn, move; /* how far the direction and a shift over the group, of how far things may */
-    float unsteady[FILTER_LANES]; /* set by nodes_see: the share of what is seen that shifts farther, whole from twice on */
+    /* Set by nodes_see, sums of weights: what is seen that shifts farther, whole from twice on; and by how much of what
+     * is there the group's sights differ. */
+    float unsteady[FILTER_LANES], unlike[FILTER_LANES];
 };
 
 /* The sums of filter_see() over nodes in place of taps; hidden: SIGHTS_OF_GROUP shares, 0 to 1, of each node. */

@@ -11,22 +11,26 @@ enum {
     TILE_HIDDEN = -2
 };
 
-/* The largest distance of a tap from the plane through its cell's mean with the tile's slope. */
-static float tile_off(const struct sight_tile *tile, const struct sight_taps *taps)
+enum { CELL_ROW = 4 * SIGHT_TILE };
+
+/* The largest distance of a tap of a row of cells from the plane through its cell's mean with the row's slope. */
+static float row_off(const struct sight_tile *tile, const struct sight_taps *taps, int row)
 {
-    double off[SIGHT_TILE_AREA] = {0}, most = 0;
+    double off[CELL_ROW] = {0}, most = 0;
     for (int i = 0; i < 4; i++) {
-        double right = 0, down = 0, squares = 0;
-        for (int t = 0; t < SIGHT_TILE_AREA; t++) {
-            const double x = t % SIGHT_TILE - (SIGHT_TILE - 1) / 2., y = t / SIGHT_TILE - (SIGHT_TILE - 1) / 2.;
-            right += x * (double)taps->planes[i][t];
-            down += y * (double)taps->planes[i][t];
-            squares += x * x;
+        const float *plane = taps->planes[i] + row * CELL_ROW;
+        double right = 0, down = 0, squares_right = 0, squares_down = 0;
+        for (int t = 0; t < CELL_ROW; t++) {
+            const double x = t % SIGHT_TILE - (SIGHT_TILE - 1) / 2., y = t / SIGHT_TILE - 1.5;
+            right += x * (double)plane[t];
+            down += y * (double)plane[t];
+            squares_right += x * x;
+            squares_down += y * y;
         }
-        for (int t = 0; t < SIGHT_TILE_AREA; t++) {
-            const double x = t % 4 - 1.5, y = t / SIGHT_TILE % 4 - 1.5;
-            const double mean = (double)tile->cells[i][t / (4 * SIGHT_TILE) * 4 + t % SIGHT_TILE / 4];
-            const double error = (double)taps->planes[i][t] - mean - (x * right + y * down) / squares;
+        for (int t = 0; t < CELL_ROW; t++) {
+            const double x = t % 4 - 1.5, y = t / SIGHT_TILE - 1.5;
+            const double mean = (double)tile->cells[i][row * 4 + t % SIGHT_TILE / 4];
+            const double error = (double)plane[t] - mean - x * right / squares_right - y * down / squares_down;
             off[t] += error * error;
             most = fmax(most, off[t]);
         }
@@ -38,8 +42,8 @@ static void tile_fill(const struct filter *filter, int left, int top, struct sig
 {
     static const enum filter_plane from[] = {FILTER_PLANE_X, FILTER_PLANE_Y, FILTER_PLANE_Z, FILTER_PLANE_W,
                                              FILTER_PLANE_AREA};
-    int count = 0;
-    *tile = (struct sight_tile){.off = INFINITY};
+    int counts[4] = {0};
+    *tile = (struct sight_tile){0};
     *taps = (struct sight_taps){0};
     for (int t = 0; t < SIGHT_TILE_AREA; t++) {
         const int x = left + t % SIGHT_TILE, y = top + t / SIGHT_TILE;
@@ -47,13 +51,15 @@ static void tile_fill(const struct filter *filter, int left, int top, struct sig
             continue;
         for (int i = 0; i < 5; i++)
             taps->planes[i][t] = *filter_tap_at(filter, from[i], x, y);
-        for (int i = 0; i < 4; i++)
-            tile->cells[i][t / (4 * SIGHT_TILE) * 4 + t % SIGHT_TILE / 4] += taps->planes[i][t] / 16;
-        count += taps->planes[4][t] > 0;
+        for (int i = 0; i < 5; i++)
+            tile->cells[i][t / CELL_ROW * 4 + t % SIGHT_TILE / 4] += taps->planes[i][t] / 16;
+        counts[t / CELL_ROW] += taps->planes[4][t] > 0;
     }
-    tile->empty = count == 0;
-    if (count == 0 || count == SIGHT_TILE_AREA)
-        tile->off = tile_off(tile, taps);
+    tile->empty = true;
+    for (int row = 0; row < 4; row++) {
+        tile->empty = tile->empty && counts[row] == 0;
+        tile->off[row] = counts[row] == 0 ? 0 : counts[row] == CELL_ROW ? row_off(tile, taps, row) : INFINITY;
+    }
 }
 
 enum result filter_visibility_build(const struct filter *filter, struct filter_visibility *visibility,

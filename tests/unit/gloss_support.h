@@ -333,7 +333,7 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
     const double own_distance = oracle_direction(gbuffer, x, y, x, y, own);
     const double own_solid = own_area / (own_distance * own_distance + own_area / (2 * pi));
     const double pixels = 2 * pi / (phong + 1) / own_solid, p = phong / (1 + 1 / (pixels + 0.125));
-    const double reach = pow(floor_weight, -2 / p) - 1, blind = 1.21 * (pow(floor_weight, -2 / phong) - 1);
+    const double reach = pow(floor_weight, -2 / p) - 1, blind = 1.21 * fmin(pow(floor_weight, -2 / phong) - 1, 0x1p99);
     const double gradient = oracle_gradient(gbuffer, x, y);
     double seen[4] = {0}, pool[4] = {0}, low[3] = {INFINITY, INFINITY, INFINITY};
     double high[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0, place[3] = {0}, second[3][3] = {{0}};
@@ -344,17 +344,18 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                 int dx = u - x, dy = v - y, away = abs(dx) > abs(dy) ? abs(dx) : abs(dy);
                 if (away != m || u < 0 || v < 0 || u >= width || v >= height)
                     continue;
-                /* The two pixels of the ring within that the line passes between, or the one that it meets. */
+                /* Between the two pixels of the ring within that the line passes between, or the one that it meets. */
                 double before = 0;
                 if (m > 0) {
                     double along = (double)(m - 1) / m;
-                    int u0 = x + (int)floor(dx * along), u1 = x + (int)ceil(dx * along);
-                    int v0 = y + (int)floor(dy * along), v1 = y + (int)ceil(dy * along);
-                    before = fmin(ways[v0 * width + u0], ways[v1 * width + u1]);
+                    int u0 = (int)floor(dx * along), u1 = (int)ceil(dx * along);
+                    int v0 = (int)floor(dy * along), v1 = (int)ceil(dy * along);
+                    double near = fmax(fabs(dx * along - u0), fabs(dy * along - v0));
+                    before = (1 - near) * ways[(y + v0) * width + x + u0] + near * ways[(y + v1) * width + x + u1];
                 }
                 if (!scene_glossy(gbuffer, u, v)) {
-                    double way = fmax(before, gradient * (dx * dx + dy * dy));
-                    ways[v * width + u] = way <= blind ? way : INFINITY;
+                    double way = (gradient * (dx * dx + dy * dy) / blind - 0.3) / 0.7;
+                    ways[v * width + u] = fmin(fmax(before, way), 1);
                     continue;
                 }
                 double t = oracle_tangent(gbuffer, x, y, u, v), area = areas[v * width + u], direction[3];
@@ -362,9 +363,8 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                 double distance = oracle_direction(gbuffer, x, y, u, v, direction);
                 double nearest = fmax(distance * distance, from_own * from_own / 10);
                 double solid = area / (nearest + area / (2 * pi)), weight = pow(1 + t, -p / 2);
-                ways[v * width + u] = fmax(before, t) <= blind ? fmax(before, t) : INFINITY;
-                double in_view = isinf(before) ? 0 : fmax(0, fmin((1 - before / blind) / 0.7, 1));
-                double f = t <= reach ? in_view * fmax(weight - floor_weight, 0) * solid : 0;
+                ways[v * width + u] = fmin(fmax(before, (t / blind - 0.3) / 0.7), 1);
+                double f = t <= reach ? (1 - before) * fmax(weight - floor_weight, 0) * solid : 0;
                 double cosine_at = 0, sum = 0, at[3];
                 for (int i = 0; i < 3; i++) {
                     cosine_at += direction[i] * own[i];

@@ -733,6 +733,33 @@ static void properties__qualities__come_near_the_exact_sums(void **state)
     }
 }
 
+/* Of what is shown alone as of the whole picture, although blocks of pixels reach beyond it. */
+static void properties__qualities__part_of_the_picture_as_of_the_whole(void **state)
+{
+    (void)state;
+    struct filter_options options = filter_options_default();
+    struct gbuffer gbuffer;
+    passes_draw(6, 4 * WIDTH, 4 * HEIGHT, &gbuffer);
+    for (int quality = 0; quality < FILTER_QUALITY_EXACT; quality++) {
+        struct image whole, part;
+        options.quality = (enum filter_quality)quality;
+        gbuffer.window = (struct image_window){0};
+        filter_run(&gbuffer, &options, &whole, NULL);
+        for (int left = 40; left < 60; left += 3) {
+            const struct image_window window = {.left = left, .top = left - 7, .width = 31, .height = 22};
+            gbuffer.window = window;
+            filter_run(&gbuffer, &options, &part, NULL);
+            for (int y = window.top; y < window.top + window.height; y++)
+                if (memcmp(image_row(&part, 0, y) + left, image_row(&whole, 0, y) + left,
+                           (size_t)window.width * sizeof(float)) != 0)
+                    fail_msg("quality %d, window at %d: row %d differs", quality, left, y);
+            image_free(&part);
+        }
+        image_free(&whole);
+    }
+    gbuffer_free(&gbuffer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -747,6 +774,7 @@ int main(void)
         cmocka_unit_test(properties__exponent_0__is_the_limit_of_small_ones),
         cmocka_unit_test(properties__tile_with_a_border__is_that_part_of_the_picture),
         cmocka_unit_test(properties__qualities__come_near_the_exact_sums),
+        cmocka_unit_test(properties__qualities__part_of_the_picture_as_of_the_whole),
         cmocka_unit_test(properties__threads_and_instruction_sets__give_the_same_bits),
         cmocka_unit_test(properties__filter_on_threads_applied_again__as_one_of_its_own),
     };
