@@ -109,6 +109,8 @@ for kind in memory read write close rename open thread space; do
     check "glossfilter__${kind}_fails__message_and_nothing_left" \
         each_fails "$kind" output/picture.png "$bin/glossfilter" passes.exr --threads 2 -o output/picture.png
 done
+check "glossfilter_draft__memory_fails__message_and_nothing_left" \
+    each_fails memory output/picture.png "$bin/glossfilter" passes.exr --quality draft --threads 2 -o output/picture.png
 check "glossfilter_exr__memory_fails__message_and_nothing_left" \
     each_fails memory output/picture.exr "$bin/glossfilter" passes.exr --layers --mode paper --weights table -o output/picture.exr
 for kind in memory read close open write; do
