@@ -206,10 +206,13 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
     }
 }
 
-/* A square of 2 size x 2 size shares to one of half its width: means, least and largest of 2 x 2. */
-ALWAYS_INLINE void halve(const uint8_t *mean, const uint8_t *low, const uint8_t *high, int size,
-                         uint8_t *restrict means, uint8_t *restrict lows, uint8_t *restrict highs)
+/* Level k of a tile, of size x size cells, from the level below: means, least and largest of 2 x 2. */
+ALWAYS_INLINE void pack_level(uint8_t *levels, int k, int size)
 {
+    const uint8_t *mean = levels + sight_level(k - 1);
+    const uint8_t *low = k > 1 ? mean + 4 * size * size : mean, *high = k > 1 ? low + 4 * size * size : mean;
+    uint8_t *restrict means = levels + sight_level(k), *restrict lows = means + size * size;
+    uint8_t *restrict highs = lows + size * size;
     _Alignas(64) uint16_t sum[SIGHT_TILE_AREA / 2];
     _Alignas(64) uint8_t least[SIGHT_TILE_AREA / 2], most[SIGHT_TILE_AREA / 2];
     for (int y = 0; y < size; y++)
@@ -236,16 +239,11 @@ static enum sight_kind pack(uint8_t map[SIGHT_TILE_AREA], uint8_t levels[SIGHT_P
     if (least == SIGHT_HIDDEN)
         return SIGHT_ALL_HIDDEN;
     if (most > 0) {
-        const uint8_t *mean = levels, *low = levels, *high = levels;
-        uint8_t *to = levels + SIGHT_TILE_AREA;
         memcpy(levels, map, SIGHT_TILE_AREA);
-        halve(mean, low, high, 8, to, to + 64, to + 128);
-        mean = to, low = to + 64, high = to + 128, to += 192;
-        halve(mean, low, high, 4, to, to + 16, to + 32);
-        mean = to, low = to + 16, high = to + 32, to += 48;
-        halve(mean, low, high, 2, to, to + 4, to + 8);
-        mean = to, low = to + 4, high = to + 8, to += 12;
-        halve(mean, low, high, 1, to, to + 1, to + 2);
+        pack_level(levels, 1, 8);
+        pack_level(levels, 2, 4);
+        pack_level(levels, 3, 2);
+        pack_level(levels, 4, 1);
     }
     memset(map, SIGHT_HIDDEN, SIGHT_TILE_AREA);
     return most > 0 ? SIGHT_MIXED : SIGHT_ALL_SEEN;

@@ -63,8 +63,15 @@ struct sight_extent {
 typedef void sight_march(const struct sight_field *field, int x, int y, int step, int limit,
                          const struct sight_eye *eye, uint8_t *scratch, uint8_t *map, struct sight_extent *extent);
 
+/* Where a tile's level k begins, of cells of 2^k pixels: of single pixels their shares, of others the means, the least
+ * and the largest. */
+static inline int sight_level(int k)
+{
+    return k == 0 ? 0 : SIGHT_PACKED - (SIGHT_PACKED * 2 >> 2 * k);
+}
+
 /* A tile's shares, taken from the map, where all is hidden again: SEEN and HIDDEN whole, or its levels from single
- * pixels to the whole tile: first means, from 2 x 2 pixels on also least and largest. */
+ * pixels to the whole tile. */
 enum sight_kind { SIGHT_MIXED, SIGHT_ALL_SEEN, SIGHT_ALL_HIDDEN };
 typedef enum sight_kind sight_pack(uint8_t map[SIGHT_TILE_AREA], uint8_t levels[SIGHT_PACKED]);
 

@@ -185,7 +185,6 @@ void sight_free(struct sight *sight)
 /* Of a cell that is no larger than a tile. */
 static void share_within(const struct sight *sight, int k, int x, int y, int share[3])
 {
-    static const int levels[] = {0, 256, 448, 496, 508};
     const int up = k < TILE_LEVEL ? TILE_LEVEL - k : 0;
     const int column = (x >> up) - sight->left, row = (y >> up) - sight->top;
     share[0] = share[1] = share[2] = SIGHT_HIDDEN;
@@ -197,7 +196,7 @@ static void share_within(const struct sight *sight, int k, int x, int y, int sha
     if (tile < 0)
         return;
     const int size = 1 << up, at = (y & (size - 1)) * size + (x & (size - 1));
-    const uint8_t *level = sight->levels + (size_t)tile * SIGHT_PACKED + levels[k];
+    const uint8_t *level = sight->levels + (size_t)tile * SIGHT_PACKED + sight_level(k);
     for (int i = 0; i < 3; i++)
         share[i] = level[k > 0 ? i * size * size + at : at];
 }
