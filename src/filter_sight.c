@@ -143,7 +143,7 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
     /* By columns. All is hidden in `before` and `state` beyond the tiles of a band, as far as a strip reaches. */
     const size_t pitch = (size_t)field->width + 3 * SIGHT_MARGIN;
     uint16_t *before = (uint16_t *)(void *)scratch + SIGHT_MARGIN, *state = before + pitch;
-    uint8_t *own = (uint8_t *)(state + pitch), *hidden = own + SIGHT_TILE * pitch;
+    uint8_t *own = scratch + 2 * sizeof *before * pitch, *hidden = own + SIGHT_TILE * pitch;
     const int rows = step < 0 ? y : field->height - 1 - y, end = rows < limit ? rows : limit;
     int first = x, last = x; /* columns that are seen of the row before */
     memset(scratch, 0xff, 2 * sizeof *before * pitch);

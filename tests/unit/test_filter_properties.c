@@ -739,7 +739,7 @@ static void properties__qualities__part_of_the_picture_as_of_the_whole(void **st
     (void)state;
     struct filter_options options = filter_options_default();
     struct gbuffer gbuffer;
-    passes_draw(6, 4 * WIDTH, 4 * HEIGHT, &gbuffer);
+    passes_draw(6, 4 * WIDTH - 15, 4 * HEIGHT - 15, &gbuffer); /* no whole tiles */
     for (int quality = 0; quality < FILTER_QUALITY_EXACT; quality++) {
         struct image whole, part;
         options.quality = (enum filter_quality)quality;
