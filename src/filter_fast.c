@@ -582,8 +582,8 @@ static bool is_more(const struct pixels *pixels, const struct filter_moments *se
     return pixels->used[l] && part[l] > limit * (float)seen->value[FILTER_MOMENT_1][l];
 }
 
-/* What the pixels of the lattice see, from the block's corners or by their own sight, and of which nodes. False: those
- * between aren't seen for from the corners. */
+/* What the pixels of the lattice see, from the block's corners or by their own sight, and of which nodes. False: to a
+ * pixel between no corner is alike. */
 static bool block_see(struct worker *worker, struct block *block, int k, const bool own[LANES],
                       struct filter_moments *seen)
 {

@@ -81,8 +81,8 @@ static const struct variant {
     double phong;
     int operations, divisions;
 } variants[] = {
-    {"best, seen, p = 100", true, FILTER_SHAPE_SOLID, 100, 141, 3},
-    {"best, seen, p = 300", true, FILTER_SHAPE_SOLID, 300, 132, 3},
+    {"best, seen, p = 100", true, FILTER_SHAPE_SOLID, 100, 143, 3},
+    {"best, seen, p = 300", true, FILTER_SHAPE_SOLID, 300, 134, 3},
     {"best, the rest, p = 100", false, FILTER_SHAPE_SOLID, 100, 76, 2},
     {"best, the rest, p = 300", false, FILTER_SHAPE_SOLID, 300, 65, 2},
     {"paper, p = 100", false, FILTER_SHAPE_POWER, 100, 69, 1},
