@@ -19,6 +19,7 @@
 #include "interrupt.h"
 #include "lobe.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -754,18 +755,18 @@ static bool is_known(const struct fast *fast, int x, int y)
 /* From the pixels beside it at dx, dy: by a cubic of four where they are alike, else by the mean of two. */
 static void interpolate(struct fast *fast, int x, int y, int dx, int dy)
 {
-    static const float cubic[4] = {-1 / 16.f, 9 / 16.f, 9 / 16.f, -1 / 16.f}, line[4] = {0, 0.5f, 0.5f, 0};
+    static const double cubic[4] = {-1 / 16., 9 / 16., 9 / 16., -1 / 16.}, line[4] = {0, 0.5, 0.5, 0};
     const struct filter *filter = fast->filter;
     const bool far = is_known(fast, x - 3 * dx, y - 3 * dy) && is_known(fast, x + 3 * dx, y + 3 * dy) &&
                      is_alike(filter, x, y, x - 3 * dx, y - 3 * dy, 1) &&
                      is_alike(filter, x, y, x + 3 * dx, y + 3 * dy, 1);
-    const float *weights = far ? cubic : line;
+    const double *weights = far ? cubic : line;
     for (int i = 0; i < 4; i++) {
         const struct image *image = i < 3 ? filter->glossy : &filter->confidence;
-        float value = 0;
+        double value = 0; /* a cubic of the largest floats is beyond them */
         for (int n = far ? 0 : 1; n < (far ? 4 : 3); n++)
-            value += weights[n] * image_row(image, i % 3, y + (2 * n - 3) * dy)[x + (2 * n - 3) * dx];
-        image_row(image, i % 3, y)[x] = value;
+            value += weights[n] * (double)image_row(image, i % 3, y + (2 * n - 3) * dy)[x + (2 * n - 3) * dx];
+        image_row(image, i % 3, y)[x] = (float)fmax(-(double)FLT_MAX, fmin(value, (double)FLT_MAX));
     }
     fast->known[pixel_of(fast, x, y)] = 1;
 }
