@@ -185,10 +185,11 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
             state = swap;
         }
         for (int tile = from; tile <= to; tile++) {
-            if (field->tiles[band * field->row + tile * field->column].empty)
-                continue;
-            uint8_t *shares = map + (band * field->row + tile * field->column) * SIGHT_TILE_AREA;
+            const ptrdiff_t index = band * field->row + tile * field->column;
+            uint8_t *shares = map + index * SIGHT_TILE_AREA;
             _Alignas(64) uint8_t found[SIGHT_TILE_AREA];
+            if (field->tiles[index].empty)
+                continue;
             copy_rows(found, SIGHT_TILE, hidden + tile * SIGHT_TILE, pitch);
             if (field->turned)
                 transpose(found);
