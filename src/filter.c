@@ -36,7 +36,7 @@ static const double blind_ratio = 1.21, fade_share = 0.7;
 /* See lobe_exponent(). */
 static const double least_pixels = 0.125;
 
-/* See filter_help_needed(); so little that it isn't worth its time is taken off. */
+/* See help_of_pixel(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 4, pool_share_least = 1.0 / 1024, missing_share = 0.5, missing_least = 0.02;
 
 /* Of fit_plane() and dim_unseen(). */
@@ -567,7 +567,7 @@ static double lobe_reach(const struct filter *filter, double phong)
 /* A lobe that is narrow for the mirror's curvature holds few pixels, n, and chance errs more there than what should be
  * hidden: share = (pool_pixels / (n + pool_pixels))^2, less a little. And half of what no seen pixel covers is taken
  * from the others. */
-struct filter_help filter_help_needed(const struct filter *filter, int x, int y, double seen)
+static struct filter_help help_of_pixel(const struct filter *filter, int x, int y, double seen)
 {
     const double few = pool_pixels / (pixels_in_lobe(filter, x, y) + pool_pixels);
     const double lobe = lobe_integral(lobe_exponent(filter, x, y), filter->floor);
@@ -575,6 +575,25 @@ struct filter_help filter_help_needed(const struct filter *filter, int x, int y,
         return (struct filter_help){0};
     return (struct filter_help){.share = fmax(few * few - pool_share_least, 0),
                                 .missing = missing_share * fmax((1 - missing_least) * lobe - seen, 0)};
+}
+
+bool filter_help_needed(const struct filter *filter, const struct filter_pixels *pixels,
+                        const struct filter_moments *seen, struct filter_lanes *lanes,
+                        struct filter_help help[FILTER_LANES])
+{
+    bool any = false;
+    for (int l = 0; l < FILTER_LANES; l++) {
+        if (!pixels->used[l])
+            continue;
+        const int x = pixels->xs[l], y = pixels->ys[l];
+        const double radius = (double)image_row(&filter->radius, 0, y)[x];
+        help[l] = help_of_pixel(filter, x, y, seen->value[FILTER_MOMENT_1][l]);
+        if (help[l].share == 0 && help[l].missing == 0)
+            continue;
+        lanes->limit[l] = (float)(radius * radius);
+        any = true;
+    }
+    return any;
 }
 
 static double clamp(double value, double low, double high)
@@ -639,8 +658,8 @@ void filter_write_mirror(struct filter *filter, int x, int y)
     image_row(&filter->confidence, 0, y)[x] = 1;
 }
 
-void filter_write_best(struct filter *filter, int x, int y, int l, const struct filter_moments *seen,
-                       const struct filter_sums *pool, struct filter_help help)
+static void pixel_write_best(struct filter *filter, int x, int y, int l, const struct filter_moments *seen,
+                             const struct filter_sums *pool, struct filter_help help)
 {
     double mean[3], share = help.share;
     if (help.missing > 0 && pool->value[3][l] > 0)
@@ -660,21 +679,32 @@ void filter_write_best(struct filter *filter, int x, int y, int l, const struct 
     image_row(&filter->confidence, 0, y)[x] = (float)confidence;
 }
 
+void filter_write_best(struct filter *filter, const struct filter_pixels *pixels, const struct filter_moments *seen,
+                       const struct filter_sums *pool, const struct filter_help help[FILTER_LANES])
+{
+    for (int l = 0; l < FILTER_LANES; l++)
+        if (pixels->used[l])
+            pixel_write_best(filter, pixels->xs[l], pixels->ys[l], l, seen, pool, help[l]);
+}
+
 void filter_best_lanes(struct filter *filter, int x, int y, float *scratch)
 {
     struct filter_lanes lanes = filter_lanes_empty(x, y);
     struct filter_moments seen = {0};
     struct filter_sums pool = {0};
     struct filter_help help[FILTER_LANES] = {{0}};
-    bool used[FILTER_LANES] = {false}, any = false, any_help = false, steep = true;
+    struct filter_pixels pixels = {.used = {false}};
+    bool any = false, steep = true;
     for (int l = 0; l < FILTER_LANES && x + l < filter->taps.width; l++) {
         if (!filter_is_glossy(filter, x + l, y))
             continue;
-        used[l] = filter_lane_fill(filter, x + l, y, l, &lanes);
-        if (!used[l])
+        pixels.xs[l] = x + l;
+        pixels.ys[l] = y;
+        pixels.used[l] = filter_lane_fill(filter, x + l, y, l, &lanes);
+        if (!pixels.used[l])
             filter_write_mirror(filter, x + l, y);
-        any = any || used[l];
-        steep = steep && (!used[l] || lanes.reach[l] <= FILTER_NARROW_REACH);
+        any = any || pixels.used[l];
+        steep = steep && (!pixels.used[l] || lanes.reach[l] <= FILTER_NARROW_REACH);
     }
     if (!any)
         return;
@@ -683,21 +713,9 @@ void filter_best_lanes(struct filter *filter, int x, int y, float *scratch)
     lanes.narrow = steep;
     filter->see(&filter->taps, &lanes, scratch, &seen);
     lanes.narrow = narrow;
-    for (int l = 0; l < FILTER_LANES; l++) {
-        if (!used[l])
-            continue;
-        help[l] = filter_help_needed(filter, x + l, y, seen.value[FILTER_MOMENT_1][l]);
-        if (help[l].share == 0 && help[l].missing == 0)
-            continue;
-        double radius = (double)image_row(&filter->radius, 0, y)[x + l];
-        lanes.limit[l] = (float)(radius * radius);
-        any_help = true;
-    }
-    if (any_help)
+    if (filter_help_needed(filter, &pixels, &seen, &lanes, help))
         filter->kernel(&filter->taps, &lanes, &pool);
-    for (int l = 0; l < FILTER_LANES; l++)
-        if (used[l])
-            filter_write_best(filter, x + l, y, l, &seen, &pool, help[l]);
+    filter_write_best(filter, &pixels, &seen, &pool, help);
 }
 
 static void blur_best(void *context, int first, int end)
