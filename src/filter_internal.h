@@ -74,8 +74,8 @@ struct filter_lanes filter_lanes_empty(int x, int y);
 /* Whether the picture needs one of these pixels: a margin is only looked at. */
 bool filter_is_needed(const struct filter *filter, int x, int y, int width, int height);
 
-/* What the pixels need besides what is seen. Where any does, the limits of the lanes are set for the sums of the pool, and
- * the result is true. */
+/* What the pixels need besides what is seen. Where any does, the limits of the lanes are set for the sums of the pool,
+ * and the result is true. */
 bool filter_help_needed(const struct filter *filter, const struct filter_pixels *pixels,
                         const struct filter_moments *seen, struct filter_lanes *lanes,
                         struct filter_help help[FILTER_LANES]);
