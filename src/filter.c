@@ -39,7 +39,7 @@ static const double least_pixels = 0.125;
 /* See help_of_pixel(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 4, pool_share_least = 1.0 / 1024, missing_share = 0.5, missing_least = 0.02;
 
-/* Of fit_plane() and dim_unseen(). */
+/* Of fit_plane() and evenness(). */
 static const double ridge = 0.3, even_contrast = 3;
 
 struct filter_options filter_options_default(void)
@@ -601,13 +601,23 @@ static double clamp(double value, double low, double high)
     return fmax(low, fmin(value, high));
 }
 
+/* 1, or less where single things are much brighter than the mean of what lane l sees: 1 + variance / mean^2 of R + G +
+ * B, about one over the share of the lobe that they fill, may be even_contrast. */
+static double evenness(const struct filter_moments *seen, int l)
+{
+    double mean = 0, square = seen->value[FILTER_MOMENT_SQUARE][l] * seen->value[FILTER_MOMENT_1][l];
+    for (int i = 0; i < 3; i++)
+        mean += seen->value[FILTER_MOMENT_R + i][l];
+    return square > 0 ? fmin(even_contrast * mean * mean / square, 1) : 1;
+}
+
 /* Mean radiance of lane l's lobe, R, G, B, by what is seen of it: the value at its middle of the plane of weighted
  * least squares in u and v,
  *   minimise sum f (L0 - value - slope . (u, v))^2 + ridge variance sum f |slope|^2,
  * with variance that of u in the whole lobe. Where the lobe is evenly covered that is the mean of L0; where it is
- * covered on one side the mean is that side's (Fan, "Design-adaptive nonparametric regression", 1992). Within the range
- * of what is seen. */
-static void fit_plane(const struct filter_moments *seen, int l, double phong, double value[3])
+ * covered on one side the mean is that side's (Fan, "Design-adaptive nonparametric regression", 1992). Single bright
+ * things make no slope: it counts as far as what is seen is even. Within the range of what is seen. */
+static void fit_plane(const struct filter_moments *seen, int l, double phong, double even, double value[3])
 {
     double m[FILTER_MOMENTS];
     for (int i = 0; i < FILTER_MOMENTS; i++)
@@ -619,22 +629,17 @@ static void fit_plane(const struct filter_moments *seen, int l, double phong, do
         double mean = m[FILTER_MOMENT_R + i];
         double with_u = m[FILTER_MOMENT_RU + i] - mean * u, with_v = m[FILTER_MOMENT_RV + i] - mean * v;
         double turn = ((vv * u - uv * v) * with_u + (uu * v - uv * u) * with_v) / determinant;
-        value[i] = clamp(mean - turn, (double)seen->low[i][l], (double)seen->high[i][l]);
+        value[i] = clamp(mean - even * turn, (double)seen->low[i][l], (double)seen->high[i][l]);
     }
 }
 
-/* Takes off what can't be expected where nothing is seen. Where single things are much brighter than the mean, 1 +
- * variance / mean^2 of R + G + B is about one over the share of the lobe that they fill; being few they are more likely
- * among what is seen than elsewhere. The mean of what isn't seen is less by that, within the range of what is. */
-static void dim_unseen(const struct filter_moments *seen, int l, double confidence, double value[3])
+/* Takes off what can't be expected where nothing is seen: single bright things, being few, are more likely among what
+ * is seen than elsewhere. The mean of what isn't seen is less by that, within the range of what is. */
+static void dim_unseen(const struct filter_moments *seen, int l, double even, double confidence, double value[3])
 {
-    double mean = 0, square = seen->value[FILTER_MOMENT_SQUARE][l] * seen->value[FILTER_MOMENT_1][l];
-    for (int i = 0; i < 3; i++)
-        mean += seen->value[FILTER_MOMENT_R + i][l];
-    const double share = square > 0 ? fmin(even_contrast * mean * mean / square, 1) : 1;
     for (int i = 0; i < 3; i++) {
-        double unseen = clamp(share * value[i], (double)seen->low[i][l], (double)seen->high[i][l]);
-        value[i] = confidence * value[i] + (1 - confidence) * (share < 1 ? unseen : value[i]);
+        double unseen = clamp(even * value[i], (double)seen->low[i][l], (double)seen->high[i][l]);
+        value[i] = confidence * value[i] + (1 - confidence) * (even < 1 ? unseen : value[i]);
     }
 }
 
@@ -667,14 +672,15 @@ static void pixel_write_best(struct filter *filter, int x, int y, int l, const s
     double phong = lobe_exponent(filter, x, y), weight = seen->value[FILTER_MOMENT_1][l];
     double confidence = fmin(weight / lobe_integral(phong, filter->floor), 1);
     const bool fit = weight > 0 && !(filter->options->without & FILTER_WITHOUT_FIT);
+    const double even = evenness(seen, l);
     for (int i = 0; i < 3; i++)
         mean[i] = seen->value[FILTER_MOMENT_R + i][l] / weight;
     if (fit)
-        fit_plane(seen, l, phong, mean);
+        fit_plane(seen, l, phong, even, mean);
     for (int i = 0; i < 3; i++)
         mean[i] = (mean[i] * weight + share * pool->value[i][l]) / (weight + share * pool->value[3][l]);
     if (fit)
-        dim_unseen(seen, l, confidence, mean);
+        dim_unseen(seen, l, even, confidence, mean);
     pixel_write(filter, x, y, mean, weight > 0 ? 1 : 0);
     image_row(&filter->confidence, 0, y)[x] = (float)confidence;
 }
