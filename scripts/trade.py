@@ -19,7 +19,7 @@ BIN = os.path.abspath(os.environ.get('BIN', 'build/bin'))
 OUT = os.path.abspath(os.environ.get('OUT', 'build/trade'))
 WIDTH, HEIGHT = 240, 180
 SIZE = [f'+W{WIDTH}', f'+H{HEIGHT}']
-ANTIALIASED = '+A0.3'  # the passes; the rays of a truth or a peer go out from the pixels' centres
+ANTIALIASED = '+A0.3'  # of the picture and of L0; further rays, a truth's too, go out from the pixels' centres
 ALL, TRADE = (30, 100, 300, 1000, 10000), (100, 1000)
 RAYS, BRUTE, NORMALS = (1, 4, 16), (4, 16, 64), (4, 16, 64)
 QUALITIES = ('--quality exact', '--quality high', 'best', '--quality draft')
@@ -154,7 +154,7 @@ class Scene:
     def brute(self, p):
         image = f'{self.folder}/rays.exr'
         for n in BRUTE:
-            seconds = self.povgloss('brute', '--phong', str(p), '--samples', str(n), '--layers', '-o', image)
+            seconds = self.povgloss('brute', ANTIALIASED, '--phong', str(p), '--samples', str(n), '--layers', '-o', image)
             noisy = read(image, 'glossy.')
             self.note(p, 'brute', n, seconds, noisy)
             if n <= 16:
