@@ -601,8 +601,8 @@ static double clamp(double value, double low, double high)
     return fmax(low, fmin(value, high));
 }
 
-/* 1, or less where single things are much brighter than the mean of what lane l sees: 1 + variance / mean^2 of R + G +
- * B, about one over the share of the lobe that they fill, may be even_contrast. */
+/* 1 where what lane l sees is about even. Where single things are much brighter, 1 + variance / mean^2 of R + G + B is
+ * about one over the share of the lobe that they fill; from even_contrast on evenness is inverse to it. */
 static double evenness(const struct filter_moments *seen, int l)
 {
     double mean = 0, square = seen->value[FILTER_MOMENT_SQUARE][l] * seen->value[FILTER_MOMENT_1][l];

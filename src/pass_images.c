@@ -273,9 +273,12 @@ static enum result take_means(const struct pass_images *images, struct gbuffer *
         result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the specular passes are of different sizes",
                            images->name);
     for (int y = 0; !result && y < means.height; y++)
-        for (int x = 0; x < means.width; x++)
-            for (int channel = 0; channel < 3 && is_inside_surface(gbuffer, x, y); channel++)
+        for (int x = 0; x < means.width; x++) {
+            if (!is_inside_surface(gbuffer, x, y))
+                continue;
+            for (int channel = 0; channel < 3; channel++)
                 image_row(&gbuffer->specular, channel, y)[x] = image_row(&means, channel, y)[x];
+        }
     image_free(&means);
     return result;
 }
