@@ -234,6 +234,7 @@ run-threads: $(THREADED_TESTS:%=$(BUILD)/tests/test_%)
 # A corpus grows in build/fuzz; an input that fails is left beside it, and becomes a seed when its cause is gone.
 .PHONY: fuzz
 fuzz: ## fuzz each reader for FUZZ_SECONDS (60) with clang's libFuzzer and sanitizers
+	@$(MAKE) --no-print-directory deps PACKAGES='clang llvm libclang-rt-14-dev'
 	$(MAKE) CC=clang SANITIZE=fuzzer-no-link,address,undefined run-fuzzers
 
 .PHONY: run-fuzzers

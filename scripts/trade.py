@@ -19,11 +19,12 @@ BIN = os.path.abspath(os.environ.get('BIN', 'build/bin'))
 OUT = os.path.abspath(os.environ.get('OUT', 'build/trade'))
 WIDTH, HEIGHT = 240, 180
 SIZE = [f'+W{WIDTH}', f'+H{HEIGHT}']
+ANTIALIASED = '+A0.3'  # of the picture and of L0; further rays, a truth's too, go out from the pixels' centres
 ALL, TRADE = (30, 100, 300, 1000, 10000), (100, 1000)
 RAYS, BRUTE, NORMALS = (1, 4, 16), (4, 16, 64), (4, 16, 64)
 QUALITIES = ('--quality exact', '--quality high', 'best', '--quality draft')
-SETTINGS = ('--margin 10%', '--subsample 2', '--subsample 4', '--max-radius 64', '--max-radius 32', '--max-radius 16',
-            '--energy 0.99', '--mode paper --weights table', '--mode paper --weights gauss',
+SETTINGS = ('--no-means', '--margin 10%', '--subsample 2', '--subsample 4', '--max-radius 64', '--max-radius 32',
+            '--max-radius 16', '--energy 0.99', '--mode paper --weights table', '--mode paper --weights gauss',
             '--mode paper --window square', '--mode paper --radius-step 4')
 WHOLE = 256  # rays of the lobe at every pixel of the image that FLIP compares with, at p = TRADE[0]
 EXAMPLES = '/usr/share/doc/povray/examples/advanced/'
@@ -136,9 +137,9 @@ class Scene:
     def settings(self):
         for setting in SETTINGS:
             passes, seconds, options = self.passes_file, self.passes, setting.split()
-            if options[0] in ('--margin', '--subsample'):
+            if options[0] in ('--no-means', '--margin', '--subsample'):
                 passes = f'{self.folder}/{options[0][2:]}.exr'
-                seconds = self.povgloss('passes', '--no-check', *options, '-o', passes)
+                seconds = self.povgloss('passes', ANTIALIASED, '--no-check', *options, '-o', passes)
                 options = []
             for p in TRADE:
                 self.filter(p, setting, seconds, passes, *options)
@@ -146,14 +147,14 @@ class Scene:
     def rays(self, p):
         image = f'{self.folder}/rays.exr'
         for n in RAYS:
-            seconds = self.povgloss('render', '--no-check', '--phong', str(p), '--rays', str(n), '--layers',
+            seconds = self.povgloss('render', ANTIALIASED, '--no-check', '--phong', str(p), '--rays', str(n), '--layers',
                                     '-o', image)
             self.note(p, 'rays', n, seconds, read(image, 'glossy.'))
 
     def brute(self, p):
         image = f'{self.folder}/rays.exr'
         for n in BRUTE:
-            seconds = self.povgloss('brute', '--phong', str(p), '--samples', str(n), '--layers', '-o', image)
+            seconds = self.povgloss('brute', ANTIALIASED, '--phong', str(p), '--samples', str(n), '--layers', '-o', image)
             noisy = read(image, 'glossy.')
             self.note(p, 'brute', n, seconds, noisy)
             if n <= 16:
@@ -195,7 +196,8 @@ class Scene:
         if not all(map(os.path.exists, parts)):
             self.read_truth()
             shutil.rmtree(f'{self.folder}/keep', ignore_errors=True)
-            self.passes = self.povgloss('passes', '--keep', f'{self.folder}/keep', '--no-check', '-o', self.passes_file)
+            self.passes = self.povgloss('passes', ANTIALIASED, '--keep', f'{self.folder}/keep', '--no-check', '-o',
+                                        self.passes_file)
         for path, part in parts.items():
             if not os.path.exists(path):
                 self.rows = []
@@ -223,15 +225,13 @@ def curve(rows, name, p, method):
 
 def table_filters(rows, names):
     lines = ['| scene | ' + ' | '.join(f'p = {p}' for p in ALL) + ' |', '|---|' + '---|' * len(ALL)]
-    ratios = {p: [] for p in ALL}
-    for name in names:
-        cells = []
-        for p in ALL:
-            sharp, paper, best = (curve(rows, name, p, m)[0][1] for m in ('sharp', 'paper', 'best'))
-            ratios[p].append(best / paper)
-            cells.append(f'{sharp:.3f} / {paper:.3f} / {best:.3f}')
-        lines.append(f'| {name} | ' + ' | '.join(cells) + ' |')
-    lines.append('| median of best / paper | ' + ' | '.join(f'{np.median(ratios[p]):.2f}' for p in ALL) + ' |')
+    found = np.array([[[curve(rows, name, p, m)[0][1] for m in ('sharp', 'paper', 'best')] for p in ALL] for name in names])
+    for name, line in zip(names, found):
+        lines.append(f'| {name} | ' + ' | '.join(' / '.join(f'{e:.3f}' for e in cell) for cell in line) + ' |')
+    _, paper, best = np.moveaxis(found, -1, 0)
+    for what, ratios in ('mean best / mean paper', best.mean(0) / paper.mean(0)), \
+                        ('median of best / paper', np.median(best / paper, 0)):
+        lines.append(f'| {what} | ' + ' | '.join(f'{ratio:.2f}' for ratio in ratios) + ' |')
     return lines
 
 

@@ -40,6 +40,7 @@ static bool take_flag(const char *argument, struct command *command)
         {"--from-scene", &command->from_scene},
         {"--resume", &command->resume},
         {"--sandbox", &command->passes.sandbox},
+        {"--no-means", &command->no_means},
         {"--no-check", &command->no_check},
     };
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
@@ -351,6 +352,7 @@ enum result command_parse(int argc, char **argv, struct command *command, struct
     command->passes.switches = switches;
     command->passes.reads = command->depfile;
     command->passes.rays = command->rays > 0;
+    command->passes.means = !command->no_means && command->kind <= KIND_PASSES;
     command->passes.check = !command->no_check && !command->filter.quiet && command->kind <= KIND_PASSES;
     command->passes.frames = frames_plan(&switches->frames);
     return result ? result : check_command(command, switches, err);

@@ -18,7 +18,7 @@ struct command {
     const char *depfile; /* NULL: none */
     char *path; /* of the scene */
     struct passes_options passes;
-    bool from_scene, resume, no_check;
+    bool from_scene, resume, no_means, no_check;
     struct cli_filter filter;
     bool filter_options_used, output_options_used;
     bool help, version, print_include_dir;

@@ -36,10 +36,10 @@ static const double blind_ratio = 1.21, fade_share = 0.7;
 /* See lobe_exponent(). */
 static const double least_pixels = 0.125;
 
-/* See filter_help_needed(); so little that it isn't worth its time is taken off. */
+/* See help_of_pixel(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 4, pool_share_least = 1.0 / 1024, missing_share = 0.5, missing_least = 0.02;
 
-/* Of fit_plane() and dim_unseen(). */
+/* Of fit_plane() and evenness(). */
 static const double ridge = 0.3, even_contrast = 3;
 
 struct filter_options filter_options_default(void)
@@ -567,7 +567,7 @@ static double lobe_reach(const struct filter *filter, double phong)
 /* A lobe that is narrow for the mirror's curvature holds few pixels, n, and chance errs more there than what should be
  * hidden: share = (pool_pixels / (n + pool_pixels))^2, less a little. And half of what no seen pixel covers is taken
  * from the others. */
-struct filter_help filter_help_needed(const struct filter *filter, int x, int y, double seen)
+static struct filter_help help_of_pixel(const struct filter *filter, int x, int y, double seen)
 {
     const double few = pool_pixels / (pixels_in_lobe(filter, x, y) + pool_pixels);
     const double lobe = lobe_integral(lobe_exponent(filter, x, y), filter->floor);
@@ -577,18 +577,47 @@ struct filter_help filter_help_needed(const struct filter *filter, int x, int y,
                                 .missing = missing_share * fmax((1 - missing_least) * lobe - seen, 0)};
 }
 
+bool filter_help_needed(const struct filter *filter, const struct filter_pixels *pixels,
+                        const struct filter_moments *seen, struct filter_lanes *lanes,
+                        struct filter_help help[FILTER_LANES])
+{
+    bool any = false;
+    for (int l = 0; l < FILTER_LANES; l++) {
+        if (!pixels->used[l])
+            continue;
+        const int x = pixels->xs[l], y = pixels->ys[l];
+        const double radius = (double)image_row(&filter->radius, 0, y)[x];
+        help[l] = help_of_pixel(filter, x, y, seen->value[FILTER_MOMENT_1][l]);
+        if (help[l].share == 0 && help[l].missing == 0)
+            continue;
+        lanes->limit[l] = (float)(radius * radius);
+        any = true;
+    }
+    return any;
+}
+
 static double clamp(double value, double low, double high)
 {
     return fmax(low, fmin(value, high));
+}
+
+/* 1 where what lane l sees is about even. Where single things are much brighter, 1 + variance / mean^2 of R + G + B is
+ * about one over the share of the lobe that they fill; from even_contrast on evenness is inverse to it. */
+static double evenness(const struct filter_moments *seen, int l)
+{
+    double mean = 0, square = seen->value[FILTER_MOMENT_SQUARE][l] * seen->value[FILTER_MOMENT_1][l];
+    for (int i = 0; i < 3; i++)
+        mean += seen->value[FILTER_MOMENT_R + i][l];
+    return square > 0 ? fmin(even_contrast * mean * mean / square, 1) : 1;
 }
 
 /* Mean radiance of lane l's lobe, R, G, B, by what is seen of it: the value at its middle of the plane of weighted
  * least squares in u and v,
  *   minimise sum f (L0 - value - slope . (u, v))^2 + ridge variance sum f |slope|^2,
  * with variance that of u in the whole lobe. Where the lobe is evenly covered that is the mean of L0; where it is
- * covered on one side the mean is that side's (Fan, "Design-adaptive nonparametric regression", 1992). Within the range
- * of what is seen. */
-static void fit_plane(const struct filter_moments *seen, int l, double phong, double value[3])
+ * covered on one side the mean is that side's (Fan, "Design-adaptive nonparametric regression", 1992). Single bright
+ * things make no slope: it counts as far as what is seen is even. Within the range of what is seen. */
+static void fit_plane(const struct filter_moments *seen, int l, double phong, double even, double value[3])
 {
     double m[FILTER_MOMENTS];
     for (int i = 0; i < FILTER_MOMENTS; i++)
@@ -600,22 +629,17 @@ static void fit_plane(const struct filter_moments *seen, int l, double phong, do
         double mean = m[FILTER_MOMENT_R + i];
         double with_u = m[FILTER_MOMENT_RU + i] - mean * u, with_v = m[FILTER_MOMENT_RV + i] - mean * v;
         double turn = ((vv * u - uv * v) * with_u + (uu * v - uv * u) * with_v) / determinant;
-        value[i] = clamp(mean - turn, (double)seen->low[i][l], (double)seen->high[i][l]);
+        value[i] = clamp(mean - even * turn, (double)seen->low[i][l], (double)seen->high[i][l]);
     }
 }
 
-/* Takes off what can't be expected where nothing is seen. Where single things are much brighter than the mean, 1 +
- * variance / mean^2 of R + G + B is about one over the share of the lobe that they fill; being few they are more likely
- * among what is seen than elsewhere. The mean of what isn't seen is less by that, within the range of what is. */
-static void dim_unseen(const struct filter_moments *seen, int l, double confidence, double value[3])
+/* Takes off what can't be expected where nothing is seen: single bright things, being few, are more likely among what
+ * is seen than elsewhere. The mean of what isn't seen is less by that, within the range of what is. */
+static void dim_unseen(const struct filter_moments *seen, int l, double even, double confidence, double value[3])
 {
-    double mean = 0, square = seen->value[FILTER_MOMENT_SQUARE][l] * seen->value[FILTER_MOMENT_1][l];
-    for (int i = 0; i < 3; i++)
-        mean += seen->value[FILTER_MOMENT_R + i][l];
-    const double share = square > 0 ? fmin(even_contrast * mean * mean / square, 1) : 1;
     for (int i = 0; i < 3; i++) {
-        double unseen = clamp(share * value[i], (double)seen->low[i][l], (double)seen->high[i][l]);
-        value[i] = confidence * value[i] + (1 - confidence) * (share < 1 ? unseen : value[i]);
+        double unseen = clamp(even * value[i], (double)seen->low[i][l], (double)seen->high[i][l]);
+        value[i] = confidence * value[i] + (1 - confidence) * (even < 1 ? unseen : value[i]);
     }
 }
 
@@ -639,8 +663,8 @@ void filter_write_mirror(struct filter *filter, int x, int y)
     image_row(&filter->confidence, 0, y)[x] = 1;
 }
 
-void filter_write_best(struct filter *filter, int x, int y, int l, const struct filter_moments *seen,
-                       const struct filter_sums *pool, struct filter_help help)
+static void pixel_write_best(struct filter *filter, int x, int y, int l, const struct filter_moments *seen,
+                             const struct filter_sums *pool, struct filter_help help)
 {
     double mean[3], share = help.share;
     if (help.missing > 0 && pool->value[3][l] > 0)
@@ -648,16 +672,25 @@ void filter_write_best(struct filter *filter, int x, int y, int l, const struct 
     double phong = lobe_exponent(filter, x, y), weight = seen->value[FILTER_MOMENT_1][l];
     double confidence = fmin(weight / lobe_integral(phong, filter->floor), 1);
     const bool fit = weight > 0 && !(filter->options->without & FILTER_WITHOUT_FIT);
+    const double even = evenness(seen, l);
     for (int i = 0; i < 3; i++)
         mean[i] = seen->value[FILTER_MOMENT_R + i][l] / weight;
     if (fit)
-        fit_plane(seen, l, phong, mean);
+        fit_plane(seen, l, phong, even, mean);
     for (int i = 0; i < 3; i++)
         mean[i] = (mean[i] * weight + share * pool->value[i][l]) / (weight + share * pool->value[3][l]);
     if (fit)
-        dim_unseen(seen, l, confidence, mean);
+        dim_unseen(seen, l, even, confidence, mean);
     pixel_write(filter, x, y, mean, weight > 0 ? 1 : 0);
     image_row(&filter->confidence, 0, y)[x] = (float)confidence;
+}
+
+void filter_write_best(struct filter *filter, const struct filter_pixels *pixels, const struct filter_moments *seen,
+                       const struct filter_sums *pool, const struct filter_help help[FILTER_LANES])
+{
+    for (int l = 0; l < FILTER_LANES; l++)
+        if (pixels->used[l])
+            pixel_write_best(filter, pixels->xs[l], pixels->ys[l], l, seen, pool, help[l]);
 }
 
 void filter_best_lanes(struct filter *filter, int x, int y, float *scratch)
@@ -666,15 +699,18 @@ void filter_best_lanes(struct filter *filter, int x, int y, float *scratch)
     struct filter_moments seen = {0};
     struct filter_sums pool = {0};
     struct filter_help help[FILTER_LANES] = {{0}};
-    bool used[FILTER_LANES] = {false}, any = false, any_help = false, steep = true;
+    struct filter_pixels pixels = {.used = {false}};
+    bool any = false, steep = true;
     for (int l = 0; l < FILTER_LANES && x + l < filter->taps.width; l++) {
         if (!filter_is_glossy(filter, x + l, y))
             continue;
-        used[l] = filter_lane_fill(filter, x + l, y, l, &lanes);
-        if (!used[l])
+        pixels.xs[l] = x + l;
+        pixels.ys[l] = y;
+        pixels.used[l] = filter_lane_fill(filter, x + l, y, l, &lanes);
+        if (!pixels.used[l])
             filter_write_mirror(filter, x + l, y);
-        any = any || used[l];
-        steep = steep && (!used[l] || lanes.reach[l] <= FILTER_NARROW_REACH);
+        any = any || pixels.used[l];
+        steep = steep && (!pixels.used[l] || lanes.reach[l] <= FILTER_NARROW_REACH);
     }
     if (!any)
         return;
@@ -683,21 +719,9 @@ void filter_best_lanes(struct filter *filter, int x, int y, float *scratch)
     lanes.narrow = steep;
     filter->see(&filter->taps, &lanes, scratch, &seen);
     lanes.narrow = narrow;
-    for (int l = 0; l < FILTER_LANES; l++) {
-        if (!used[l])
-            continue;
-        help[l] = filter_help_needed(filter, x + l, y, seen.value[FILTER_MOMENT_1][l]);
-        if (help[l].share == 0 && help[l].missing == 0)
-            continue;
-        double radius = (double)image_row(&filter->radius, 0, y)[x + l];
-        lanes.limit[l] = (float)(radius * radius);
-        any_help = true;
-    }
-    if (any_help)
+    if (filter_help_needed(filter, &pixels, &seen, &lanes, help))
         filter->kernel(&filter->taps, &lanes, &pool);
-    for (int l = 0; l < FILTER_LANES; l++)
-        if (used[l])
-            filter_write_best(filter, x + l, y, l, &seen, &pool, help[l]);
+    filter_write_best(filter, &pixels, &seen, &pool, help);
 }
 
 static void blur_best(void *context, int first, int end)

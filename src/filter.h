@@ -74,8 +74,8 @@ const struct gbuffer *filter_gbuffer(const struct filter *filter);
  *   A / 2 pi).
  * - Seen: see filter_see in filter_kernel.h. A non-glossy pixel hides what a surface that goes on like the pixel's own
  *   would no longer reflect.
- * - Where what is seen covers little of the lobe and single things are much brighter than the rest of it, the rest is
- *   taken to have fewer of them (part of the fit).
+ * - Where single things are much brighter than the rest of what is seen, E^2 < E(L0^2) / 3 of its R + G + B, the plane
+ *   has less of its slope, by 3 E^2 / E(L0^2), and what isn't seen is taken to have fewer of them (part of the fit).
  * - q = p / (1 + 1 / (n + 1/8)), where the lobe of p holds n pixels like this one: a lobe as wide as p's and the pixel
  *   together, for what lies between two pixels is known by these alone (without density q = p).
  * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of

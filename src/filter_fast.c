@@ -99,10 +99,9 @@ struct worker {
     bool out_of_memory;
 };
 
-/* Up to 16 pixels that are computed together. */
+/* Pixels that are computed together. */
 struct pixels {
-    int xs[LANES], ys[LANES];
-    bool used[LANES];
+    struct filter_pixels at;
     struct filter_group group;
 };
 
@@ -282,11 +281,11 @@ static bool corner_share(const struct filter *filter, const struct block *block,
 {
     bool any = false;
     for (int l = 0; l < LANES; l++) {
-        const double right = (double)(pixels->xs[l] - block->left) / size;
-        const double down = (double)(pixels->ys[l] - block->top) / size;
+        const double right = (double)(pixels->at.xs[l] - block->left) / size;
+        const double down = (double)(pixels->at.ys[l] - block->top) / size;
         const double weight = (c & 1 ? right : 1 - right) * (c >> 1 ? down : 1 - down);
-        if (!pixels->used[l] || own[l] || !(weight > 0) ||
-            !is_alike(filter, x, y, pixels->xs[l], pixels->ys[l], lent_most))
+        if (!pixels->at.used[l] || own[l] || !(weight > 0) ||
+            !is_alike(filter, x, y, pixels->at.xs[l], pixels->at.ys[l], lent_most))
             continue;
         pixels->group.share[block->sight_count][l] = (float)weight;
         any = found[l] = true;
@@ -331,9 +330,9 @@ static bool sights_choose(struct worker *worker, struct block *block, int size, 
         if (!found_between[l])
             return false;
     for (int l = 0; l < LANES; l++)
-        if (block->lattice.used[l] && !found[l]) {
+        if (block->lattice.at.used[l] && !found[l]) {
             block->lattice.group.share[block->sight_count][l] = 1;
-            if (!sight_add(worker, block, block->lattice.xs[l], block->lattice.ys[l]))
+            if (!sight_add(worker, block, block->lattice.at.xs[l], block->lattice.at.ys[l]))
                 return true;
         }
     shares_complete(&block->lattice, block->sight_count);
@@ -496,14 +495,14 @@ static bool pixel_add(struct fast *fast, struct block *block, struct pixels *pix
     struct filter *filter = fast->filter;
     if (!filter_is_inside(filter, x, y) || !filter_is_glossy(filter, x, y))
         return false;
-    pixels->used[l] = filter_lane_fill(filter, x, y, l, &pixels->group.lanes);
-    if (!pixels->used[l]) {
+    pixels->at.used[l] = filter_lane_fill(filter, x, y, l, &pixels->group.lanes);
+    if (!pixels->at.used[l]) {
         filter_write_mirror(filter, x, y);
         fast->known[pixel_of(fast, x, y)] = 1;
         return false;
     }
-    pixels->xs[l] = x;
-    pixels->ys[l] = y;
+    pixels->at.xs[l] = x;
+    pixels->at.ys[l] = y;
     pixels->group.column[l] = (float)x;
     pixels->group.row[l] = (float)y;
     if (!(filter->options->without & FILTER_WITHOUT_POOL))
@@ -538,7 +537,7 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
     return any;
 }
 
-/* Of the two pixels that level_fill() takes the mean of for pixel (x, y), but (0, 0), how far they are from it. */
+/* How far the two pixels between which (x, y), but (0, 0), is interpolated are from it. */
 static void neighbours_of(int x, int y, int *dx, int *dy)
 {
     const int both = x | y, apart = both & -both; /* the largest power of two that divides both */
@@ -580,7 +579,7 @@ static float shift_scale(const struct fast *fast, const struct rate *rate, int k
 static bool is_more(const struct pixels *pixels, const struct filter_moments *seen, const float part[LANES], int l,
                     float limit)
 {
-    return pixels->used[l] && part[l] > limit * (float)seen->value[FILTER_MOMENT_1][l];
+    return pixels->at.used[l] && part[l] > limit * (float)seen->value[FILTER_MOMENT_1][l];
 }
 
 /* What the pixels of the lattice see, from the block's corners or by their own sight, and of which nodes. False: to a
@@ -608,25 +607,12 @@ static void pixels_write(struct worker *worker, struct pixels *pixels, const str
     struct filter *filter = fast->filter;
     struct filter_sums pool = {0};
     struct filter_help help[LANES] = {{0}};
-    bool any_help = false;
-    for (int l = 0; l < LANES; l++) {
-        if (!pixels->used[l])
-            continue;
-        help[l] = filter_help_needed(filter, pixels->xs[l], pixels->ys[l], seen->value[FILTER_MOMENT_1][l]);
-        if (help[l].share == 0 && help[l].missing == 0)
-            continue;
-        const double radius = (double)image_row(&filter->radius, 0, pixels->ys[l])[pixels->xs[l]];
-        pixels->group.lanes.limit[l] = (float)(radius * radius);
-        any_help = true;
-    }
-    if (any_help)
+    if (filter_help_needed(filter, &pixels->at, seen, &pixels->group.lanes, help))
         filter->sight->pool(worker->nodes, worker->count, &pixels->group, &pool);
-    for (int l = 0; l < LANES; l++) {
-        if (!pixels->used[l])
-            continue;
-        filter_write_best(filter, pixels->xs[l], pixels->ys[l], l, seen, &pool, help[l]);
-        fast->known[pixel_of(fast, pixels->xs[l], pixels->ys[l])] = 1;
-    }
+    filter_write_best(filter, &pixels->at, seen, &pool, help);
+    for (int l = 0; l < LANES; l++)
+        if (pixels->at.used[l])
+            fast->known[pixel_of(fast, pixels->at.xs[l], pixels->at.ys[l])] = 1;
 }
 
 /* Computes the pixels of a block of level k. False: what it sees is too near for so large a block, or is seen too
@@ -752,11 +738,13 @@ static bool is_known(const struct fast *fast, int x, int y)
     return filter_is_inside(fast->filter, x, y) && fast->known[pixel_of(fast, x, y)];
 }
 
-/* From the pixels beside it at dx, dy: by a cubic of four where they are alike, else by the mean of two. */
-static void interpolate(struct fast *fast, int x, int y, int dx, int dy)
+/* From its neighbours_of(): by a cubic of four where they are alike, else by the mean of two. */
+static void interpolate(struct fast *fast, int x, int y)
 {
     static const double cubic[4] = {-1 / 16., 9 / 16., 9 / 16., -1 / 16.}, line[4] = {0, 0.5, 0.5, 0};
     const struct filter *filter = fast->filter;
+    int dx, dy;
+    neighbours_of(x, y, &dx, &dy);
     const bool far = is_known(fast, x - 3 * dx, y - 3 * dy) && is_known(fast, x + 3 * dx, y + 3 * dy) &&
                      is_alike(filter, x, y, x - 3 * dx, y - 3 * dy, 1) &&
                      is_alike(filter, x, y, x + 3 * dx, y + 3 * dy, 1);
@@ -781,7 +769,7 @@ static void level_fill(struct fast *fast, int k)
             for (int x = pass == 0 ? half : 0; x < fast->filter->taps.width; x += pass == 0 ? apart : half)
                 if (fast->apart[pixel_of(fast, x, y)] >= k && !fast->known[pixel_of(fast, x, y)] &&
                     filter_is_glossy(fast->filter, x, y))
-                    interpolate(fast, x, y, pass == 0 ? half : 0, pass == 0 ? 0 : half);
+                    interpolate(fast, x, y);
 }
 
 void filter_fast_free(struct fast *fast)

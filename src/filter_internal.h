@@ -39,6 +39,12 @@ struct filter {
     atomic_bool out_of_memory;
 };
 
+/* Up to 16 pixels that are summed together, each in its lane. */
+struct filter_pixels {
+    int xs[FILTER_LANES], ys[FILTER_LANES];
+    bool used[FILTER_LANES];
+};
+
 /* What the sums over all endpoints about a pixel, seen from its a or not, count beside the sums over what is seen. */
 struct filter_help {
     double share;   /* factor of these sums */
@@ -68,10 +74,15 @@ struct filter_lanes filter_lanes_empty(int x, int y);
 /* Whether the picture needs one of these pixels: a margin is only looked at. */
 bool filter_is_needed(const struct filter *filter, int x, int y, int width, int height);
 
-/* Of a pixel whose seen taps' weights come to `seen`; what was found there is in lane l. */
-struct filter_help filter_help_needed(const struct filter *filter, int x, int y, double seen);
-void filter_write_best(struct filter *filter, int x, int y, int l, const struct filter_moments *seen,
-                       const struct filter_sums *pool, struct filter_help help);
+/* What the pixels need besides what is seen. Where any does, the limits of the lanes are set for the sums of the pool,
+ * and the result is true. */
+bool filter_help_needed(const struct filter *filter, const struct filter_pixels *pixels,
+                        const struct filter_moments *seen, struct filter_lanes *lanes,
+                        struct filter_help help[FILTER_LANES]);
+
+/* The results of the pixels. */
+void filter_write_best(struct filter *filter, const struct filter_pixels *pixels, const struct filter_moments *seen,
+                       const struct filter_sums *pool, const struct filter_help help[FILTER_LANES]);
 
 /* The exact sums of up to 16 pixels from column x of row y on, written. scratch: as for filter_see. */
 void filter_best_lanes(struct filter *filter, int x, int y, float *scratch);

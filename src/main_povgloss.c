@@ -46,6 +46,7 @@ static const char help[] =
     "  --timeout SECONDS    end a POV-Ray process that runs longer, and fail; 0: never (default)\n"
     "  --sandbox            run POV-Ray under bubblewrap: no network, no files but the scene's folders (read\n"
     "                       only) and the system's\n"
+    "  --no-means           L0 by one ray a pixel, also where the picture is antialiased (+A)\n"
     "  --no-check           don't compare the sum of the passes with a small picture by POV-Ray itself\n"
     "  --depfile FILE       write a make rule that names every file the scene read, but the system's\n"
     "  --keep DIR           leave the rewritten scenes and POV-Ray's images in DIR\n"

@@ -236,6 +236,53 @@ static void fill_exponents(struct gbuffer *gbuffer, double single, const struct 
         }
 }
 
+/* Whether pixel (x, y) and all those about it show one glossy surface: a shifts by about as much to either side. */
+static bool is_inside_surface(const struct gbuffer *gbuffer, int x, int y)
+{
+    const double most_change = 0.5;
+    const struct image *phong = &gbuffer->phong;
+    for (int v = y - 1; v <= y + 1; v++)
+        for (int u = x - 1; u <= x + 1; u++)
+            if (u >= 0 && u < phong->width && v >= 0 && v < phong->height && !(image_row(phong, 0, v)[u] > 0))
+                return false;
+    for (int n = 0; n < 2; n++) {
+        const int dx = n == 0, dy = n == 1;
+        double shift[2] = {0}, change = 0;
+        if (x - dx < 0 || y - dy < 0 || x + dx >= phong->width || y + dy >= phong->height)
+            continue;
+        for (int axis = 0; axis < 3; axis++) {
+            double here = (double)image_row(&gbuffer->position, axis, y)[x];
+            double before = here - (double)image_row(&gbuffer->position, axis, y - dy)[x - dx];
+            double after = (double)image_row(&gbuffer->position, axis, y + dy)[x + dx] - here;
+            shift[0] += before * before;
+            shift[1] += after * after;
+            change += (after - before) * (after - before);
+        }
+        if (change > most_change * most_change * fmax(shift[0], shift[1]))
+            return false;
+    }
+    return true;
+}
+
+/* L0 becomes the mean over the pixel, but at the borders of surfaces: there the pixel shows something else, too. */
+static enum result take_means(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
+{
+    struct image means = {0};
+    enum result result = pass_images_radiance(images, PASS_SPECULAR_MEAN, &means, err);
+    if (!result && !same_size(&means, &gbuffer->specular))
+        result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the specular passes are of different sizes",
+                           images->name);
+    for (int y = 0; !result && y < means.height; y++)
+        for (int x = 0; x < means.width; x++) {
+            if (!is_inside_surface(gbuffer, x, y))
+                continue;
+            for (int channel = 0; channel < 3; channel++)
+                image_row(&gbuffer->specular, channel, y)[x] = image_row(&means, channel, y)[x];
+        }
+    image_free(&means);
+    return result;
+}
+
 /* A weighted specular pass holds L0 as the surfaces reflect it: divided by their reflectivity, mixed alike, it is L0
  * again. A pixel that reflects nothing isn't glossy. */
 static enum result divide_specular(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
@@ -485,6 +532,8 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         fill_exponents(gbuffer, images->scene->exponent, &codes, &means);
         if (pass_weights_specular(images->scene))
             result = divide_specular(images, gbuffer, err);
+        if (!result && images->means)
+            result = take_means(images, gbuffer, err);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
         if (images->camera)
             set_eye(images->camera, gbuffer);

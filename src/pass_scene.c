@@ -67,6 +67,10 @@ static const char outside[] = "povgloss_leave_copy() object { povgloss_object } 
     .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror}, .second = {.copy = -1}
 #define EXPONENTS CODES, .margin = true, .mirror_colour = mirror_exponent, MIRROR_COPY, .trailer = sky_white
 #define MIRRORED CODES, .glossy_part = true, .mirror_colour = mirror_white, MIRROR_COPY, .coded_sky = true
+#define SPECULAR \
+    .margin = true, .glossy_part = true, .mirror_colour = mirror_white, \
+        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS}, \
+        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}
 #define REFLECTIVITIES \
     .glossy_part = true, .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance}, \
     .second = {.copy = -1}, .trailer = sky_half
@@ -81,12 +85,8 @@ const struct pass pass_table[PASS_COUNT] = {
                    .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "",
                              .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
-    [PASS_SPECULAR] = {.name = "specular",
-                       .margin = true,
-                       .glossy_part = true,
-                       .mirror_colour = mirror_white,
-                       .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
-                       .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}},
+    [PASS_SPECULAR] = {.name = "specular", SPECULAR},
+    [PASS_SPECULAR_MEAN] = {.name = "specular-mean", SPECULAR},
     [PASS_HAZE] = {.name = "haze",
                    .margin = true,
                    .glossy_part = true,
@@ -617,6 +617,8 @@ bool pass_is_mirror(enum pass_id id)
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_PROBE || pass_is_mirror(id) || pass_is_place(id))
+        return false;
+    if (id == PASS_SPECULAR_MEAN && pass_needed(scene, PASS_HAZE))
         return false;
     if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;

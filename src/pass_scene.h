@@ -13,6 +13,7 @@ enum pass_id {
     PASS_PHOTONS, /* no image: leaves PASS_PHOTONS_FILE in its folder, for those that are run after it */
     PASS_BASE,
     PASS_SPECULAR,
+    PASS_SPECULAR_MEAN, /* antialiased */
     PASS_HAZE,
     PASS_REFLECTANCE,
     PASS_REFLECTIVITY, /* the same by one ray a pixel: what L0 was multiplied by in the specular pass */
@@ -78,8 +79,8 @@ struct pass pass_of(const struct scene *scene, enum pass_id id);
 bool pass_weights_specular(const struct scene *scene);
 
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the
- * haze where it has one, or media, or a weighted specular pass, which then has a reflectivity, too; exponents where they
- * differ, antialiased where one is painted. */
+ * haze where it has one, or media, or a weighted specular pass, which then has a reflectivity, too, and no mean over the
+ * pixel; exponents where they differ, antialiased where one is painted. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Whether there are several exponents, a texture may mix a glossy surface with another one, or a total reflection, in

@@ -116,6 +116,13 @@ static bool seeks_view(const struct passes *passes)
     return !options->rays && !options->switches->partial && !passes->scene.depends_on_size;
 }
 
+static bool has_means(const struct passes *passes)
+{
+    const struct passes_options *options = passes->options;
+    return options->means && options->switches->antialias && options->subsample == 1 &&
+           pass_needed(&passes->scene, PASS_SPECULAR_MEAN);
+}
+
 static enum result write_scenes(struct passes *passes, struct error *err)
 {
     bool needed[SCENE_COPY_COUNT] = {false};
@@ -127,7 +134,8 @@ static enum result write_scenes(struct passes *passes, struct error *err)
     for (int id = 0; !result && id < PASS_COUNT; id++) {
         bool asked = (passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id)) ||
                      (passes->margin && pass_is_place((enum pass_id)id));
-        bool unasked = (id == PASS_OWN && !is_checked(passes)) || (id == PASS_VIEW && !seeks_view(passes));
+        bool unasked = (id == PASS_OWN && !is_checked(passes)) || (id == PASS_VIEW && !seeks_view(passes)) ||
+                       (id == PASS_SPECULAR_MEAN && !has_means(passes));
         if (unasked || (!asked && !pass_needed(&passes->scene, (enum pass_id)id)))
             continue;
         passes->ids[passes->job_count++] = (enum pass_id)id;
@@ -322,8 +330,12 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     const char *const *format = pass.codes ? codes : radiance;
     for (int i = 0; !result && format[i]; i++)
         result = text_list_add(arguments, err, "%s", format[i]);
-    if (!result && (!pass.full_size || id == PASS_OWN))
+    if (!result && (!pass.full_size || id == PASS_OWN) && id != PASS_SPECULAR_MEAN)
         result = text_list_add(arguments, err, "-A");
+    /* 2 x 2 rays, where the pixel isn't like those beside it: 3 x 3 are no better where the filter blurs. */
+    static const char *const mean[] = {"+AM1", "+R2", "-J", NULL};
+    for (int i = 0; !result && id == PASS_SPECULAR_MEAN && mean[i]; i++)
+        result = text_list_add(arguments, err, "%s", mean[i]);
     if (!result && id == PASS_OWN)
         result = add_own_size(passes, arguments, err);
     if (!result && (id == PASS_VIEW || pass_is_place(id)))
@@ -562,6 +574,7 @@ static struct pass_images images_of(const struct passes *passes, const char *num
                                 .name = passes->options->scene,
                                 .scene = &passes->scene,
                                 .subsample = passes->options->subsample,
+                                .means = has_means(passes),
                                 .rays = passes->options->rays,
                                 .margin_x = passes->margin_x,
                                 .margin_y = passes->margin_y,

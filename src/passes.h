@@ -3,6 +3,7 @@
  *   base         the scene with the glossy finishes' reflection switched off
  *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors and the rest is black,
  *                mirrored rays see the scene itself; with focal blur and mixed textures times the reflectivity
+ *   specular-mean  the same antialiased, where the picture is and there is no haze: the mean over the pixel
  *   haze         where there is fog, a rainbow or media, or L0 is weighted: the same without mirrors, which is what
  *                they add before the glossy surface to the specular pass
  *   reflectance  glossy surfaces with their own reflection and no shading, under a sky of one half
@@ -40,6 +41,7 @@ struct passes_options {
     int jobs;             /* POV-Ray processes at the same time; 0: two more than there are cores */
     int timeout_s;        /* for each POV-Ray process; 0: none */
     bool check;           /* POV-Ray's own picture is rendered, too, for passes_check_sum */
+    bool means;           /* L0 is the mean over a pixel where the switches ask for antialiasing; not with subsampling */
     bool rays;            /* the gbuffer gets the eye's rays and the mirrored ones; not with subsampling */
     bool sandbox;         /* POV-Ray runs in one (sandbox.h) */
     bool reads;           /* what POV-Ray reads is noted, for passes_reads */

@@ -181,7 +181,7 @@ enum result povray_error_text(const struct buffer *messages, struct buffer *text
 {
     enum result result = RESULT_OK;
     bool wanted = false;
-    const char *line = messages->data ? messages->data : "";
+    const char *line = messages->data ? messages->data : "", *last = NULL;
     while (!result && *line) {
         size_t length = strcspn(line, "\r\n");
         const char *end = line + length;
@@ -194,8 +194,12 @@ enum result povray_error_text(const struct buffer *messages, struct buffer *text
         bool noise = !strncmp(copy, "Fatal error in parser: Cannot parse input", 41);
         if (wanted && !noise && length)
             result = buffer_printf(text, err, "%s%s", further || !text->size ? "" : "\n", copy);
+        if (length && strncmp(copy, "Rendered ", 9) && strcmp(copy, "POV-Ray finished"))
+            last = line;
         free(copy);
         line = end + strspn(end, "\r\n");
     }
+    if (!result && !text->size && last)
+        result = buffer_printf(text, err, "%.*s", (int)strcspn(last, "\r\n"), last);
     return result;
 }

@@ -47,7 +47,7 @@ enum result povray_missing(const char *program, struct error *err);
 bool povray_is_other_version(const struct buffer *messages, char version[POVRAY_VERSION_SIZE]);
 
 /* The lines of POV-Ray's messages that say what is wrong, in *text (the caller frees it): the wrapped lines joined,
- * banner, options and progress left out. */
+ * banner, options and progress left out. Where none does, the last line but progress. */
 MUST_CHECK enum result povray_error_text(const struct buffer *messages, struct buffer *text, struct error *err);
 
 #endif

@@ -412,7 +412,7 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                     matrix[k][j] -= matrix[k][i] / matrix[i][i] * matrix[i][j];
         for (int i = 0; i < 3; i++) {
             slope[i] = matrix[i][3] / matrix[i][i];
-            value -= slope[i] * place[i] / seen[3];
+            value -= dimmed * slope[i] * place[i] / seen[3];
         }
         if (!(options->without & FILTER_WITHOUT_FIT))
             value = fmax(low[channel], fmin(value, high[channel]));

@@ -465,7 +465,7 @@ static void error_text__progress_ended_by_carriage_returns__left_out(void **stat
                       "Fatal error in renderer: Out of memory. further");
 }
 
-static void error_text__nothing_or_only_progress__empty(void **state)
+static void error_text__no_error_among_them__last_line(void **state)
 {
     (void)state;
     struct buffer none = {0}, text = {0};
@@ -474,7 +474,9 @@ static void error_text__nothing_or_only_progress__empty(void **state)
     assert_int_equal(text.size, 0);
     assert_error_text("", "");
     assert_error_text("\n\n\r\n", "");
-    assert_error_text(BANNER "Rendered 4096 of 4096 pixels (100%)\rPOV-Ray finished\n", "");
+    assert_error_text("Rendered 4096 of 4096 pixels (100%)\rPOV-Ray finished\n", "");
+    assert_error_text(BANNER "==== [Rendering...] ====\nRendered 4096 of 4096 pixels (100%)\rPOV-Ray finished\n",
+                      "==== [Rendering...] ====");
 }
 
 /* A broken scene through the real program: the switches are those of the passes. */
@@ -524,7 +526,7 @@ int main(void)
         cmocka_unit_test(error_text__warning_in_a_mirror_copy__left_out),
         cmocka_unit_test(error_text__bad_switch__what_povray_says),
         cmocka_unit_test(error_text__progress_ended_by_carriage_returns__left_out),
-        cmocka_unit_test(error_text__nothing_or_only_progress__empty),
+        cmocka_unit_test(error_text__no_error_among_them__last_line),
         cmocka_unit_test(error_text__real_povray__file_line_and_word),
     };
     return cmocka_run_group_tests_name("povray", tests, scratch_setup, scratch_teardown);
