@@ -165,16 +165,24 @@ static void scale_reflectance(struct image *reflectance, double gamma)
         }
 }
 
+/* The radiance of a pass that goes with the specular one, pixel by pixel. */
+static enum result read_beside_specular(const struct pass_images *images, enum pass_id id, const struct image *specular,
+                                        struct image *image, struct error *err)
+{
+    enum result result = pass_images_radiance(images, id, image, err);
+    if (!result && !same_size(specular, image))
+        result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the specular and the %s pass are of different sizes",
+                           images->name, pass_table[id].name);
+    return result;
+}
+
 /* What is between the eye and the glossy surface is part of the base: of the specular pass only the rest is left, L0 as
  * far as it gets through. */
 static enum result clear_haze(const struct pass_images *images, struct image *specular, struct error *err)
 {
     const double gamma = images->scene->working_gamma;
     struct image haze = {0};
-    enum result result = pass_images_radiance(images, PASS_HAZE, &haze, err);
-    if (!result && !same_size(specular, &haze))
-        result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the specular and the haze pass are of different sizes",
-                           images->name);
+    enum result result = read_beside_specular(images, PASS_HAZE, specular, &haze, err);
     for (int channel = 0; !result && channel < 3; channel++)
         for (int y = 0; y < specular->height; y++) {
             const float *before = image_row(&haze, channel, y);
@@ -268,10 +276,7 @@ static bool is_inside_surface(const struct gbuffer *gbuffer, int x, int y)
 static enum result take_means(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
 {
     struct image means = {0};
-    enum result result = pass_images_radiance(images, PASS_SPECULAR_MEAN, &means, err);
-    if (!result && !same_size(&means, &gbuffer->specular))
-        result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the specular passes are of different sizes",
-                           images->name);
+    enum result result = read_beside_specular(images, PASS_SPECULAR_MEAN, &gbuffer->specular, &means, err);
     for (int y = 0; !result && y < means.height; y++)
         for (int x = 0; x < means.width; x++) {
             if (!is_inside_surface(gbuffer, x, y))
@@ -290,10 +295,7 @@ static enum result divide_specular(const struct pass_images *images, struct gbuf
     const double gamma = images->scene->working_gamma;
     const float least = 1e-4f;
     struct image reflectivity = {0};
-    enum result result = pass_images_radiance(images, PASS_REFLECTIVITY, &reflectivity, err);
-    if (!result && !same_size(&reflectivity, &gbuffer->specular))
-        result = error_set(err, RESULT_DATA,
-                           "%s: POV-Ray's images of the specular and the reflectivity pass are of different sizes", images->name);
+    enum result result = read_beside_specular(images, PASS_REFLECTIVITY, &gbuffer->specular, &reflectivity, err);
     if (!result)
         scale_reflectance(&reflectivity, gamma);
     for (int y = 0; !result && y < reflectivity.height; y++)

@@ -317,6 +317,14 @@ static enum result add_own_size(const struct passes *passes, struct text_list *a
     return add_size(arguments, width, height, err);
 }
 
+static enum result add_all(struct text_list *arguments, const char *const *texts, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int i = 0; !result && texts[i]; i++)
+        result = text_list_add(arguments, err, "%s", texts[i]);
+    return result;
+}
+
 /* The user's switches first, then those on which the pass depends: POV-Ray takes the last one. */
 static enum result job_arguments(const struct passes *passes, enum pass_id id, int frame, struct text_list *arguments,
                                  struct error *err)
@@ -326,16 +334,17 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     const struct pass pass = pass_of(&passes->scene, id);
     static const char *const codes[] = {"+Oimage.ppm", "+FP16", "File_Gamma=1.0", "Dither=off", NULL};
     static const char *const radiance[] = {"+Oimage.exr", "+FE", NULL};
-    enum result result = scene_arguments(passes, frame, arguments, err);
-    const char *const *format = pass.codes ? codes : radiance;
-    for (int i = 0; !result && format[i]; i++)
-        result = text_list_add(arguments, err, "%s", format[i]);
-    if (!result && (!pass.full_size || id == PASS_OWN) && id != PASS_SPECULAR_MEAN)
-        result = text_list_add(arguments, err, "-A");
     /* 2 x 2 rays, where the pixel isn't like those beside it: 3 x 3 are no better where the filter blurs. */
     static const char *const mean[] = {"+AM1", "+R2", "-J", NULL};
-    for (int i = 0; !result && id == PASS_SPECULAR_MEAN && mean[i]; i++)
-        result = text_list_add(arguments, err, "%s", mean[i]);
+    static const char *const smooth[] = {"+A0.0", "+AM1", "+R3", "-J", "Antialias_Gamma=1.0", NULL};
+    static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
+    enum result result = scene_arguments(passes, frame, arguments, err);
+    if (!result)
+        result = add_all(arguments, pass.codes ? codes : radiance, err);
+    if (!result && id == PASS_SPECULAR_MEAN)
+        result = add_all(arguments, mean, err);
+    else if (!result && (!pass.full_size || id == PASS_OWN))
+        result = text_list_add(arguments, err, "-A");
     if (!result && id == PASS_OWN)
         result = add_own_size(passes, arguments, err);
     if (!result && (id == PASS_VIEW || pass_is_place(id)))
@@ -343,14 +352,12 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     /* Reflectivities are small, and their edges show as much as those of the picture. */
     if (!result && id == PASS_REFLECTANCE && switches->antialias)
         result = text_list_add(arguments, err, "+A0.01");
-    static const char *const smooth[] = {"+A0.0", "+AM1", "+R3", "-J", "Antialias_Gamma=1.0", NULL};
-    for (int i = 0; !result && pass.smooth && smooth[i]; i++)
-        result = text_list_add(arguments, err, "%s", smooth[i]);
+    if (!result && pass.smooth)
+        result = add_all(arguments, smooth, err);
     if (!result && pass.technical)
         result = text_list_add(arguments, err, "+Q8");
-    static const char *const one_pixel[] = {"+SR1", "+ER1", "+SC1", "+EC1", NULL};
-    for (int i = 0; !result && id == PASS_PHOTONS && one_pixel[i]; i++)
-        result = text_list_add(arguments, err, "%s", one_pixel[i]);
+    if (!result && id == PASS_PHOTONS)
+        result = add_all(arguments, one_pixel, err);
     if (!result && options->subsample > 1 && !pass.full_size && id != PASS_VIEW)
         result = add_size(arguments, switches->width / options->subsample, switches->height / options->subsample, err);
     return result;
