@@ -29,7 +29,7 @@ for path; do
     [ -e "$passes" ] || "$bin/povgloss" passes "$path" "${size[@]}" --quiet -o "$passes"
     for p in "${exponents[@]}"; do
         exact="--phong $p --quality exact"
-        table "$passes" "0 $exact" "0.004 --phong $p --quality high" "0.006 --phong $p" "0.012 --phong $p --quality draft"
+        table "$passes" "0 $exact" "0.002 --phong $p --quality high" "0.004 --phong $p" "0.005 --phong $p --quality draft"
         table "$passes" "0 $exact" "0 $exact --threads 1" "0 $exact --isa avx2" "0 $exact --isa sse2"
         table "$passes" "0 --phong $p" "0 --phong $p --threads 1" "0 --phong $p --isa avx2" "0 --phong $p --isa sse2"
         table "$passes" "0 --phong $p --mode paper" "0.001 --phong $p --mode paper --weights table" \

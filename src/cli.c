@@ -135,13 +135,19 @@ static enum result set_mode(const char *name, const char *value, struct cli_filt
 
 static enum result set_quality(const char *name, const char *value, struct cli_filter *options, struct error *err)
 {
-    static const char *const words[] = {[FILTER_QUALITY_DRAFT] = "draft", [FILTER_QUALITY_NORMAL] = "normal",
-                                        [FILTER_QUALITY_HIGH] = "high", [FILTER_QUALITY_EXACT] = "exact", NULL};
+    static const char *const words[] = {"draft", "normal", "high", "exact", NULL};
+    static const double tolerances[] = {FILTER_TOLERANCE_DRAFT, FILTER_TOLERANCE_NORMAL, FILTER_TOLERANCE_HIGH, 0};
     int chosen;
     enum result result = choose(name, value, words, &chosen, err);
     if (result == RESULT_OK)
-        options->filter.quality = (enum filter_quality)chosen;
+        options->filter.tolerance = tolerances[chosen];
     return result;
+}
+
+static enum result set_tolerance(const char *name, const char *value, struct cli_filter *options, struct error *err)
+{
+    return cli_number(name, value, FILTER_TOLERANCE_LEAST, FILTER_TOLERANCE_DRAFT, &options->filter.tolerance,
+                      err);
 }
 
 static enum result set_without(const char *name, const char *value, struct cli_filter *options, struct error *err)
@@ -264,7 +270,7 @@ static const struct {
     {"--max-radius", set_max_radius}, {"--radius-step", set_radius_step}, {"--energy", set_energy},
     {"--max-angle", set_max_angle},   {"--threads", set_threads},         {"--isa", set_isa},
     {"--format", set_format},         {"--bits", set_bits},               {"--without", set_without},
-    {"--quality", set_quality},
+    {"--quality", set_quality},       {"--tolerance", set_tolerance},
 };
 
 const char cli_filter_help[] =
@@ -280,8 +286,9 @@ const char cli_filter_help[] =
     "  --max-radius PX      limit of the window's radius; 0: none (default)\n"
     "  --without W          best: leave out density, visibility, pool or fit, to see what it is worth; may be\n"
     "                       given again\n"
-    "  --quality Q          of best: draft, normal (default), high, or exact: every pixel that is seen counts by\n"
-    "                       itself, in up to thirty times the time\n"
+    "  --quality Q          of best: draft, normal (default) or high: --tolerance 0.002, 0.0015 or 0.001;\n"
+    "                       exact: every pixel that is seen counts by itself, in up to a hundred times the time\n"
+    "  --tolerance E        of best: about the RMSE of the picture against an exact one, 0.0007 to 0.002\n"
     "Filter of --mode paper:\n"
     "  --weights W          exact (default), table (within 0.003 %), or gauss in place of the lobe\n"
     "  --formula F          phong: cos^P, equation (3), default; max: 2 strength cos^P, equation (2);\n"
@@ -357,8 +364,8 @@ enum result cli_check_filter(const struct cli_filter *options, struct error *err
                          "--weights, --formula, --window and --radius-step are the paper's: add --mode paper");
     if (filter->without && filter->mode != FILTER_MODE_BEST)
         return error_set(err, RESULT_USAGE, "--without is for --mode best");
-    if (filter->quality != FILTER_QUALITY_NORMAL && filter->mode != FILTER_MODE_BEST)
-        return error_set(err, RESULT_USAGE, "--quality is for --mode best");
+    if (filter->tolerance != FILTER_TOLERANCE_NORMAL && filter->mode != FILTER_MODE_BEST)
+        return error_set(err, RESULT_USAGE, "--quality and --tolerance are for --mode best");
     return RESULT_OK;
 }
 

@@ -48,6 +48,7 @@ struct filter_options filter_options_default(void)
         .weights = FILTER_WEIGHTS_EXACT,
         .formula = FILTER_FORMULA_PHONG,
         .window = FILTER_WINDOW_ROUND,
+        .tolerance = FILTER_TOLERANCE_NORMAL,
         .phong = NAN,
         .max_angle_rad = 1.57079632679489662,
         .radius_step = 1,
@@ -172,16 +173,6 @@ static void taps_fill(void *context, int first, int end)
         }
 }
 
-const float *filter_tap_at(const struct filter *filter, enum filter_plane plane, int x, int y)
-{
-    return filter->taps.planes[plane] + (size_t)y * filter->taps.stride + (size_t)x + FILTER_BORDER;
-}
-
-bool filter_is_glossy(const struct filter *filter, int x, int y)
-{
-    return *filter_tap_at(filter, FILTER_PLANE_GAIN, x, y) > 0;
-}
-
 void filter_position_at(const struct filter *filter, int x, int y, float a[3])
 {
     for (int i = 0; i < 3; i++)
@@ -199,11 +190,6 @@ double filter_direction_to(const struct filter *filter, const float a[3], int x,
     for (int i = 0; i < 3 && distance > 0; i++)
         direction[i] /= distance;
     return distance;
-}
-
-bool filter_is_inside(const struct filter *filter, int x, int y)
-{
-    return x >= 0 && y >= 0 && x < filter->taps.width && y < filter->taps.height;
 }
 
 /* How far the ray of a glossy pixel moves across itself at its endpoint, to the next pixel on one axis: that of a lies

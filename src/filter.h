@@ -8,11 +8,16 @@
 #include "cpu.h"
 #include "gbuffer.h"
 
-/* EXACT: the best filter's sums as they are written below. The others take far pixels together, compute some pixels
- * and interpolate (filter_fast.c): RMSE against the exact result about 0.001 to 0.003 (NORMAL), half of that (HIGH),
- * 0.002 to 0.01 (DRAFT); see docs/performance.md. Exact in any case are pictures of fewer than 16384 pixels, but for a
- * draft, and all with a max_radius_px. Only exact results of flipped passes are the flipped results. */
-enum filter_quality { FILTER_QUALITY_NORMAL, FILTER_QUALITY_DRAFT, FILTER_QUALITY_HIGH, FILTER_QUALITY_EXACT };
+/* Tolerances of the best filter: 0, the sums as they are written below; else far pixels are taken together, and some
+ * pixels computed and the others interpolated (filter_fast.c), so that on three scenes, at exponents of 30, 300 and
+ * 3000, the RMSE of the picture against the exact one, linear, is no larger; see docs/performance.md. Exact in any case
+ * are pictures of fewer than 16384 pixels, but for a draft, and all with a max_radius_px. Only exact results of flipped
+ * passes are the flipped results. */
+#define FILTER_TOLERANCE_LEAST 0.0007
+#define FILTER_TOLERANCE_HIGH 0.001
+#define FILTER_TOLERANCE_NORMAL 0.0015
+#define FILTER_TOLERANCE_DRAFT 0.002
+
 enum filter_mode { FILTER_MODE_BEST, FILTER_MODE_PAPER };
 enum filter_weights { FILTER_WEIGHTS_EXACT, FILTER_WEIGHTS_TABLE, FILTER_WEIGHTS_GAUSS };
 enum filter_formula { FILTER_FORMULA_PHONG, FILTER_FORMULA_MAX }; /* equation (3), equation (2) */
@@ -32,8 +37,8 @@ struct filter_options {
     enum filter_weights weights; /* weights, formula, window, radius_step: the paper's alone */
     enum filter_formula formula;
     enum filter_window window;
-    enum filter_quality quality; /* the best's alone */
-    unsigned without;     /* set of enum filter_without */
+    double tolerance;     /* the best's alone: 0, or FILTER_TOLERANCE_LEAST to _DRAFT */
+    unsigned without;     /* the best's alone: set of enum filter_without */
     float phong;          /* exponent where the gbuffer has none: 0 to infinity; NaN: none is known */
     bool phong_override;  /* phong takes the place of the gbuffer's exponents, too; not glossy stays not glossy */
     double energy;        /* share of the lobe's energy within Theta, (0, 1); 0: 0.99 (paper), 0.999 (best) */
@@ -44,8 +49,8 @@ struct filter_options {
     enum cpu_isa isa;     /* the result is the same to the last bit */
 };
 
-/* Best; exact weights, Phong formula, round window, no exponent, the mode's energy, no limits, radius at every pixel.
- * */
+/* Best, FILTER_TOLERANCE_NORMAL; exact weights, Phong formula, round window, no exponent, the mode's energy, no limits,
+ * radius at every pixel. */
 struct filter_options filter_options_default(void);
 
 /* A gbuffer, and what is built of it for filter_apply() whatever the exponents. */

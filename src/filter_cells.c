@@ -7,21 +7,19 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Children whose W/r' lie within this share of the largest are one layer. */
 static const float one_layer = 0.1f;
 
-/* Where taps of a cell lie on the mirror: the sum of their a's. */
-struct places {
-    float a[3], count;
-};
-
 /* What a cell is made of. */
 struct children {
     struct filter_node nodes[8];
+    float a[8][3];           /* means of their own a's */
     int count;
     float nearest, farthest; /* of W/r' */
-    struct places places;    /* sums */
+    double places[3];        /* sum of the a's of all that is there */
+    double place_count;
 };
 
 bool filter_cell_of_pixel(const struct filter *filter, int x, int y, struct filter_node *node)
@@ -47,43 +45,45 @@ bool filter_cell_of_pixel(const struct filter *filter, int x, int y, struct filt
     return true;
 }
 
-static void children_add(struct children *children, const struct filter_node *node)
+static void children_add(struct children *children, const struct filter_node *node, const float a[3])
 {
+    memcpy(children->a[children->count], a, sizeof children->a[0]);
     children->nodes[children->count++] = *node;
     children->nearest = fmaxf(children->nearest, node->w);
     children->farthest = fminf(children->farthest, node->w);
 }
 
-static void places_add(struct children *children, const struct places *places)
+static void places_add(struct children *children, const float a[3], double count)
 {
     for (int i = 0; i < 3; i++)
-        children->places.a[i] += places->a[i];
-    children->places.count += places->count;
+        children->places[i] += count * (double)a[i];
+    children->place_count += count;
 }
 
 static void pixel_add(const struct filter *filter, int x, int y, struct children *children)
 {
     struct filter_node node;
-    struct places places = {.count = 1};
+    float a[3];
     if (!filter_cell_of_pixel(filter, x, y, &node))
         return;
-    filter_position_at(filter, x, y, places.a);
-    children_add(children, &node);
-    places_add(children, &places);
+    filter_position_at(filter, x, y, a);
+    children_add(children, &node, a);
+    places_add(children, a, 1);
 }
 
-static void cell_add(const struct filter_cell *cell, const struct places *places, struct children *children)
+static void cell_add(const struct filter_cell *cell, struct children *children)
 {
     for (int i = 0; i < 2; i++)
         if (cell->layer[i].solid > 0)
-            children_add(children, &cell->layer[i]);
-    places_add(children, places);
+            children_add(children, &cell->layer[i], cell->a);
+    places_add(children, cell->a, (double)cell->pixels);
 }
 
 /* The layer of the children that are nearer than `threshold`, or the others. */
-static void layer_of(const struct children *children, float threshold, bool near, struct filter_node *layer)
+static void layer_of(const struct children *children, const float a[3], float threshold, bool near,
+                     struct filter_node *layer)
 {
-    double sum[4] = {0}, solid = 0, cap = 0, radiance[3] = {0}, square = 0, variance = 0, mean[3];
+    double sum[4] = {0}, solid = 0, cap = 0, radiance[3] = {0}, square = 0, variance = 0, depth = 0, mean[4];
     for (int i = 0; i < children->count; i++) {
         const struct filter_node *node = &children->nodes[i];
         if ((node->w > threshold) != near)
@@ -95,51 +95,55 @@ static void layer_of(const struct children *children, float threshold, bool near
             radiance[k] += (double)node->solid * (double)node->radiance[k];
         solid += (double)node->solid;
         cap += (double)node->solid * (double)node->cap;
-        variance += (double)node->solid * (double)node->spread;
         square += (double)node->solid * (double)node->square;
     }
     if (solid == 0)
         return;
-    *layer = (struct filter_node){.x = (float)(sum[0] / solid),
-                                  .y = (float)(sum[1] / solid),
-                                  .z = (float)(sum[2] / solid),
-                                  .w = (float)(sum[3] / solid),
-                                  .solid = (float)solid,
-                                  .cap = (float)(cap / solid),
-                                  .square = (float)(square / solid)};
-    const struct places *places = &children->places;
-    for (int k = 0; k < 3; k++)
-        layer->radiance[k] = (float)(radiance[k] / solid);
-    for (int k = 0; k < 3; k++)
-        mean[k] = (sum[k] - sum[3] * (double)(places->a[k] / places->count)) / solid;
+    for (int k = 0; k < 4; k++)
+        mean[k] = sum[k] / solid;
     for (int i = 0; i < children->count; i++) {
         const struct filter_node *node = &children->nodes[i];
         if ((node->w > threshold) != near)
             continue;
         const float at[3] = {node->x, node->y, node->z};
+        const double own = (double)filter_node_spread(node, children->a[i], a), off_w = (double)node->w - mean[3];
+        double off = 0;
         for (int k = 0; k < 3; k++) {
-            double off = (double)(at[k] - node->w * (places->a[k] / places->count)) - mean[k];
-            variance += (double)node->solid * off * off;
+            const double one = (double)at[k] - mean[k] - off_w * (double)a[k];
+            off += one * one;
         }
+        variance += (double)node->solid * (own * own + off);
+        depth += (double)node->solid * ((double)node->depth * (double)node->depth + off_w * off_w);
     }
-    layer->spread = (float)(variance / solid);
+    *layer = (struct filter_node){.x = (float)mean[0],
+                                  .y = (float)mean[1],
+                                  .z = (float)mean[2],
+                                  .w = (float)mean[3],
+                                  .solid = (float)solid,
+                                  .cap = (float)(cap / solid),
+                                  .square = (float)(square / solid),
+                                  .spread = (float)sqrt(variance / solid),
+                                  .depth = (float)sqrt(depth / solid)};
+    for (int k = 0; k < 3; k++)
+        layer->radiance[k] = (float)(radiance[k] / solid);
 }
 
 static struct filter_cell cell_of(const struct children *children)
 {
-    struct filter_cell cell = {0};
+    struct filter_cell cell = {.pixels = (float)children->place_count};
     if (children->count == 0)
         return cell;
     const float nearest = children->nearest, farthest = children->farthest;
     const float threshold = nearest - farthest > one_layer * nearest ? (nearest + farthest) / 2 : -1;
-    layer_of(children, threshold, true, &cell.layer[0]);
-    layer_of(children, threshold, false, &cell.layer[1]);
+    for (int k = 0; k < 3; k++)
+        cell.a[k] = (float)(children->places[k] / children->place_count);
+    layer_of(children, cell.a, threshold, true, &cell.layer[0]);
+    layer_of(children, cell.a, threshold, false, &cell.layer[1]);
     return cell;
 }
 
 enum result filter_cells_build(const struct filter *filter, struct filter_cells *cells, struct error *err)
 {
-    struct places *places = NULL, *before = NULL;
     enum result result = RESULT_OK;
     *cells = (struct filter_cells){.width = {filter->taps.width}, .height = {filter->taps.height}};
     for (int k = 1; k < CELL_LEVELS && result == RESULT_OK; k++) {
@@ -149,11 +153,8 @@ enum result filter_cells_build(const struct filter *filter, struct filter_cells 
         cells->width[k] = width;
         cells->height[k] = height;
         cells->level[k] = calloc(count, sizeof *cells->level[k]);
-        free(before);
-        before = places;
-        places = calloc(count, sizeof *places);
-        if (!cells->level[k] || !places) {
-            result = error_memory(err, (double)count * (double)(sizeof *cells->level[k] + sizeof *places));
+        if (!cells->level[k]) {
+            result = error_memory(err, (double)count * (double)sizeof *cells->level[k]);
             break;
         }
         for (size_t i = 0; i < count; i++) {
@@ -165,14 +166,11 @@ enum result filter_cells_build(const struct filter *filter, struct filter_cells 
                     if (k == 1)
                         pixel_add(filter, u, v, &children);
                     else
-                        cell_add(&cells->level[k - 1][child], &before[child], &children);
+                        cell_add(&cells->level[k - 1][child], &children);
                 }
             cells->level[k][i] = cell_of(&children);
-            places[i] = children.places;
         }
     }
-    free(places);
-    free(before);
     return result;
 }
 

@@ -3,11 +3,11 @@
  * - Blocks of 4 x 4 pixels are computed together, 16 to 1 pixels apart: as far as the things that they see shift by
  *   little of the lobe from one to the next. What lies between is interpolated, and computed where it can't be: at
  *   the borders of mirrors.
- * - Taps are clustered (filter_cells.h): a cell is used whole where it is small for its distance, its directions
- *   differ by little of the lobe, and it is seen whole or not at all.
+ * - Taps are clustered (filter_cells.h, filter_walk.h): a cell is used whole where it is small for its distance, its
+ *   directions differ by little of the lobe, and it is seen whole or not at all.
  * - What is seen is found (filter_visibility.h) for the corners of blocks, and interpolated for the pixels between by
- *   the share of each cell that is hidden; where the corners differ by too much, blocks are halved, down to single
- *   pixels. What hides may be narrower than any cell: a sight looks at every pixel.
+ *   the share of each cell that is hidden; where the corners differ by too much, or near things come out uneven, blocks
+ *   are halved, down to single pixels. What hides may be narrower than any cell: a sight looks at every pixel.
  *
  * Each row of the largest blocks is done by itself, so that the result doesn't depend on the threads.
  */
@@ -16,6 +16,7 @@
 #include "bands.h"
 #include "filter_cells.h"
 #include "filter_visibility.h"
+#include "filter_walk.h"
 #include "interrupt.h"
 #include "lobe.h"
 
@@ -30,7 +31,7 @@ enum {
     BLOCK_LEVELS = 5, /* of blocks whose pixels are 1, 2, 4, 8 and 16 apart */
     LARGEST = SIDE << (BLOCK_LEVELS - 1),
     REACH = 3 << (BLOCK_LEVELS - 1), /* pixels: interpolation comes from no farther, 3 (8 + 4 + 2 + 1) */
-    SIGHTS = 40, /* that are kept, while their memory allows: */
+    SIGHTS = 100,                    /* that are kept, while their memory allows: */
     LEAST_PIXELS = 1 << 14 /* of a picture: the exact sums of a smaller one are as fast */
 };
 
@@ -40,28 +41,40 @@ static const double sights_bytes = 0x1p27;
 static const float phong_most = 1e5f;
 
 /* Of tan^2(theta) where the lobe ends, over the square of the angle from a pixel to the next; of lobes wider than
- * narrow_reach, tan^2(theta), in proportion fewer: near things are then many pixels from where far ones are. */
-static const float few_pixels = 300, narrow_reach = 0.01f;
+ * narrow_reach, tan^2(theta), in proportion fewer: near things are then many pixels from where far ones are. The second
+ * where most pixels need sights of their own. */
+static const float few_pixels = 300, rough_pixels = 12000, narrow_reach = 0.01f;
 
 /* Units: of the lobe's width, 1/sqrt(p) radians, at most 1. */
 struct settings {
     float smooth;   /* things shift by no more over a block, */
     float unsteady; /* but for this share of what is seen (no unit) */
+    float bend;     /* and more, where the second differences of the results are at most this share of the largest */
     float unlike;   /* the share of what is there by which a block's sights may differ (no unit) */
     float spread;   /* of the directions of a cell that is used whole */
     float size;     /* of such a cell, of its distance in pixels (no unit) */
     float hidden;   /* what the hidden share of such a cell may be off, of the whole lobe's weight (no unit) */
 };
 
-static const struct settings settings_of[] = {
-    [FILTER_QUALITY_DRAFT] = {8, 0.05f, 0.3f, 0.5f, 1 / 4.f, 8e-3f},
-    [FILTER_QUALITY_NORMAL] = {4, 0.01f, 0.15f, 0.5f, 1 / 7.f, 8e-3f},
-    [FILTER_QUALITY_HIGH] = {1.5f, 0.005f, 0.03f, 0.3f, 1 / 10.f, 2e-3f},
-};
+/* Measured: povscenes/contact.pov, interior.pov and spheres.pov, 640x360, p = 30, 300 and 3000. */
+static struct settings settings_of(double tolerance)
+{
+    const double e = tolerance / FILTER_TOLERANCE_NORMAL;
+    return (struct settings){.smooth = (float)(4 * pow(e, 1.6)),
+                             .unsteady = (float)(0.01 * pow(e, 2)),
+                             .bend = (float)(0.05 * pow(e, 2.3)),
+                             .unlike = (float)fmin(0.3 * pow(e, 2.6), 1),
+                             .spread = (float)(0.5 * pow(e, 1.4)),
+                             .size = (float)(pow(e, 1.3) / 3),
+                             .hidden = (float)(0.03 * pow(e, 4))};
+}
 
 /* A sight isn't lent to a pixel from which what it sees is shifted by more, nor is a pixel at the border of a mirror
  * interpolated from such: what is there is something else. */
 static const double lent_most = 4, between_most = 0.25;
+
+/* By how much of its weights in the block the corners must be alike to a pixel that has no sight of its own. */
+static const float corners_least = 0.5f;
 
 /* How far the direction may turn over a block, of how far things may shift: a turn shifts them all. */
 static const float turn_most = 0.75f;
@@ -81,7 +94,7 @@ struct fast {
     struct rate *rates[BLOCK_LEVELS];
     int across[BLOCK_LEVELS], down[BLOCK_LEVELS]; /* blocks */
     /* Of one call: */
-    const struct settings *settings;
+    struct settings settings;
     unsigned char *known, *apart; /* of each pixel: its result is there; log2 of how far apart its block's pixels are */
 };
 
@@ -93,9 +106,7 @@ struct worker {
     long clock;
     struct sight_scratch scratch;
     float *exact;     /* of filter_best_lanes */
-    struct filter_node *nodes;
-    float *hidden; /* SIGHTS_OF_GROUP a node */
-    int count, capacity;
+    struct filter_nodes nodes;
     bool out_of_memory;
 };
 
@@ -109,23 +120,15 @@ struct pixels {
 struct block {
     struct pixels lattice, between; /* where it can't be interpolated */
     int between_count;
-    int left, top, right, bottom; /* of the computed pixels */
-    int finest;                   /* cells of so many pixels are always used whole */
-    int reach_px;                 /* of the pool */
-    int middle;                   /* a lane of the lattice in the middle */
-    double lobe;                  /* its integral, steradians */
-    float spread_limit;           /* radians^2 */
-    bool everything;              /* is seen */
-    const struct sight *sights[SIGHTS_OF_GROUP];
-    int sight_count;
+    struct filter_walk walk;
 };
 
 bool filter_fast_applies(const struct filter *filter)
 {
     const struct filter_options *options = filter->options;
     const long pixels = (long)filter->taps.width * filter->taps.height;
-    return options->mode == FILTER_MODE_BEST && options->quality != FILTER_QUALITY_EXACT &&
-           options->max_radius_px == 0 && (pixels >= LEAST_PIXELS || options->quality == FILTER_QUALITY_DRAFT);
+    return options->mode == FILTER_MODE_BEST && options->tolerance > 0 && options->max_radius_px == 0 &&
+           (pixels >= LEAST_PIXELS || options->tolerance >= FILTER_TOLERANCE_DRAFT);
 }
 
 static size_t pixel_of(const struct fast *fast, int x, int y)
@@ -270,25 +273,26 @@ static const struct sight *sight_of(struct worker *worker, int x, int y)
 static bool sight_add(struct worker *worker, struct block *block, int x, int y)
 {
     const struct sight *sight = sight_of(worker, x, y);
-    block->sights[block->sight_count++] = sight;
+    block->walk.sights[block->walk.sight_count++] = sight;
     return sight != NULL;
 }
 
 /* The share of the sight of corner (x, y), c, that will be the block's next one, for the pixels that are alike to it,
- * but for those with one of their own. Whether there are any. */
+ * but for those with one of their own. Added to what they have found; whether there are any. */
 static bool corner_share(const struct filter *filter, const struct block *block, int size, int c, int x, int y,
-                         const bool own[LANES], struct pixels *pixels, bool found[LANES])
+                         const bool own[LANES], struct pixels *pixels, float found[LANES])
 {
     bool any = false;
     for (int l = 0; l < LANES; l++) {
-        const double right = (double)(pixels->at.xs[l] - block->left) / size;
-        const double down = (double)(pixels->at.ys[l] - block->top) / size;
+        const double right = (double)(pixels->at.xs[l] - block->walk.left) / size;
+        const double down = (double)(pixels->at.ys[l] - block->walk.top) / size;
         const double weight = (c & 1 ? right : 1 - right) * (c >> 1 ? down : 1 - down);
         if (!pixels->at.used[l] || own[l] || !(weight > 0) ||
             !is_alike(filter, x, y, pixels->at.xs[l], pixels->at.ys[l], lent_most))
             continue;
-        pixels->group.share[block->sight_count][l] = (float)weight;
-        any = found[l] = true;
+        pixels->group.share[block->walk.sight_count][l] = (float)weight;
+        found[l] += (float)weight;
+        any = true;
     }
     return any;
 }
@@ -312,11 +316,11 @@ static bool sights_choose(struct worker *worker, struct block *block, int size, 
 {
     static const bool none[LANES] = {false};
     const struct filter *filter = worker->fast->filter;
-    const int left = block->left, top = block->top;
+    const int left = block->walk.left, top = block->walk.top;
     const int xs[2] = {left, left + size < filter->taps.width ? left + size : filter->taps.width - 1};
     const int ys[2] = {top, top + size < filter->taps.height ? top + size : filter->taps.height - 1};
-    bool found[LANES] = {false}, found_between[LANES] = {false};
-    block->sight_count = 0;
+    float found[LANES] = {0}, found_between[LANES] = {0};
+    block->walk.sight_count = 0;
     memset(block->lattice.group.share, 0, sizeof block->lattice.group.share);
     for (int c = 0; c < 4; c++) {
         const int x = xs[c & 1], y = ys[c >> 1];
@@ -327,164 +331,19 @@ static bool sights_choose(struct worker *worker, struct block *block, int size, 
             return true;
     }
     for (int l = 0; l < block->between_count; l++)
-        if (!found_between[l])
+        if (!(found_between[l] > 0))
             return false;
     for (int l = 0; l < LANES; l++)
-        if (block->lattice.at.used[l] && !found[l]) {
-            block->lattice.group.share[block->sight_count][l] = 1;
+        if (block->lattice.at.used[l] && found[l] < corners_least) {
+            for (int s = 0; s < block->walk.sight_count; s++)
+                block->lattice.group.share[s][l] = 0;
+            block->lattice.group.share[block->walk.sight_count][l] = 1;
             if (!sight_add(worker, block, block->lattice.at.xs[l], block->lattice.at.ys[l]))
                 return true;
         }
-    shares_complete(&block->lattice, block->sight_count);
-    shares_complete(&block->between, block->sight_count);
+    shares_complete(&block->lattice, block->walk.sight_count);
+    shares_complete(&block->between, block->walk.sight_count);
     return true;
-}
-
-/* --- nodes --- */
-
-/* About what a layer weighs in the middle lane's lobe, or somewhat more; 0: it is out of every lane's lobe. */
-static double layer_weight(const struct block *block, const struct filter_node *layer)
-{
-    const struct filter_lanes *lanes = &block->lattice.group.lanes;
-    const int l = block->middle;
-    const double v[3] = {(double)(layer->x - layer->w * lanes->a[0][l]), (double)(layer->y - layer->w * lanes->a[1][l]),
-                         (double)(layer->z - layer->w * lanes->a[2][l])};
-    double c = 0, square = 0;
-    for (int i = 0; i < 3; i++) {
-        c += v[i] * (double)lanes->direction[i][l];
-        square += v[i] * v[i];
-    }
-    if (!(c > 0))
-        return 0;
-    const double tangent = fmax(sqrt(fmax(square / (c * c) - 1, 0)) - 2 * sqrt((double)layer->spread), 0);
-    const double t = tangent * tangent, margin = 1.3;
-    if (t > (double)lanes->reach[l] * margin)
-        return 0;
-    return exp2(-(double)lanes->slope[l] * log2(1 + t)) * (double)layer->solid /
-           fmax(square, 1 / FILTER_MOST_ENLARGED);
-}
-
-/* How a cell is seen: the hidden share for each sight, how far its least and largest are apart, and whether any of it
- * is seen at all. */
-struct look {
-    float hidden[SIGHTS_OF_GROUP];
-    float range;
-    bool visible;
-    bool seen;                           /* by a sight that isn't open */
-    unsigned char open[SIGHTS_OF_GROUP]; /* sights that don't see all of it alike */
-    int open_count;
-};
-
-static struct look look_from(const struct block *block)
-{
-    struct look look = {.seen = block->everything, .visible = block->everything, .open_count = block->sight_count};
-    for (int s = 0; s < block->sight_count; s++)
-        look.open[s] = (unsigned char)s;
-    return look;
-}
-
-/* How cell (x, y) of level k is seen, which is part of a cell that is seen as in `whole`. */
-static struct look look_at(const struct block *block, int k, int x, int y, const struct look *whole)
-{
-    struct look look = *whole;
-    int range = 0;
-    look.open_count = 0;
-    for (int i = 0; i < whole->open_count; i++) {
-        const unsigned char s = whole->open[i];
-        int share[3];
-        sight_share(block->sights[s], k, x, y, share);
-        look.hidden[s] = (float)share[0] / SIGHT_HIDDEN;
-        if (share[2] > share[1])
-            look.open[look.open_count++] = s;
-        else
-            look.seen = look.seen || share[1] < SIGHT_HIDDEN;
-        range = share[2] - share[1] > range ? share[2] - share[1] : range;
-    }
-    look.range = (float)range / SIGHT_HIDDEN;
-    look.visible = look.seen || look.open_count > 0;
-    return look;
-}
-
-/* A cell's hidden share may always be off by so much. */
-static const float range_least = 0.05f;
-
-/* Whether the cell, small enough for its distance, is to be opened: its directions differ too much, or part of it is
- * hidden, and that counts. */
-static bool is_mixed(const struct fast *fast, const struct block *block, const struct filter_cell *cell,
-                     struct look *look)
-{
-    const bool spread = fmaxf(cell->layer[0].spread, cell->layer[1].spread) > block->spread_limit;
-    const bool parts = look->visible && look->range > range_least;
-    if (!spread && !parts)
-        return false;
-    const double weight = (layer_weight(block, &cell->layer[0]) + layer_weight(block, &cell->layer[1])) / block->lobe;
-    look->visible = look->visible && weight > 0;
-    return weight > 0 && (spread || weight * (double)look->range > (double)fast->settings->hidden);
-}
-
-static void node_add(struct worker *worker, const struct block *block, const struct filter_node *node, float column,
-                     float row, const struct look *look)
-{
-    float low = 1, high = 0;
-    if (worker->count == worker->capacity) {
-        const int capacity = worker->capacity ? 2 * worker->capacity : 4096;
-        struct filter_node *nodes = realloc(worker->nodes, (size_t)capacity * sizeof *nodes);
-        worker->nodes = nodes ? nodes : worker->nodes;
-        float *shares = realloc(worker->hidden, (size_t)capacity * SIGHTS_OF_GROUP * sizeof *shares);
-        worker->hidden = shares ? shares : worker->hidden;
-        if (!nodes || !shares) {
-            worker->out_of_memory = true;
-            return;
-        }
-        worker->capacity = capacity;
-    }
-    memcpy(worker->hidden + (size_t)worker->count * SIGHTS_OF_GROUP, look->hidden, sizeof look->hidden);
-    for (int s = 0; s < block->sight_count; s++) {
-        low = look->hidden[s] < low ? look->hidden[s] : low;
-        high = look->hidden[s] > high ? look->hidden[s] : high;
-    }
-    struct filter_node *added = &worker->nodes[worker->count++];
-    *added = *node;
-    added->column = column;
-    added->row = row;
-    added->visible = look->visible;
-    added->unlike = high > low ? high - low : 0;
-}
-
-/* Adds the nodes of a cell of level k, or of its parts. */
-static void cell_walk(struct worker *worker, const struct block *block, int k, int x, int y, const struct look *whole)
-{
-    const struct fast *fast = worker->fast;
-    const struct filter_cells *cells = &fast->cells;
-    const int size = 1 << k, left = x << k, top = y << k;
-    const int right = left + size - 1, bottom = top + size - 1;
-    const int off_x = left > block->right ? left - block->right : block->left > right ? block->left - right : 0;
-    const int off_y = top > block->bottom ? top - block->bottom : block->top > bottom ? block->top - bottom : 0;
-    const int away = off_x > off_y ? off_x : off_y;
-    const struct filter_cell *cell = k > 0 ? &cells->level[k][(size_t)y * (size_t)cells->width[k] + (size_t)x] : NULL;
-    const float column = (float)left + (float)(size - 1) / 2, row = (float)top + (float)(size - 1) / 2;
-    struct filter_node node;
-    const bool empty = cell ? cell->layer[0].solid == 0 && cell->layer[1].solid == 0
-                            : !filter_cell_of_pixel(fast->filter, x, y, &node);
-    if (empty || worker->out_of_memory)
-        return;
-    struct look look = look_at(block, k, x, y, whole);
-    if (!look.visible && away > block->reach_px)
-        return;
-    if (!cell) {
-        node_add(worker, block, &node, column, row, &look);
-        return;
-    }
-    const bool large = size > block->finest && (float)size > (float)away * fast->settings->size;
-    if (large || is_mixed(fast, block, cell, &look)) {
-        for (int v = 2 * y; v < 2 * y + 2 && v < cells->height[k - 1]; v++)
-            for (int u = 2 * x; u < 2 * x + 2 && u < cells->width[k - 1]; u++)
-                cell_walk(worker, block, k - 1, u, v, &look);
-        return;
-    }
-    for (int i = 0; i < 2; i++)
-        if (cell->layer[i].solid > 0)
-            node_add(worker, block, &cell->layer[i], column, row, &look);
 }
 
 /* --- blocks --- */
@@ -506,7 +365,7 @@ static bool pixel_add(struct fast *fast, struct block *block, struct pixels *pix
     pixels->group.column[l] = (float)x;
     pixels->group.row[l] = (float)y;
     if (!(filter->options->without & FILTER_WITHOUT_POOL))
-        block->reach_px = (int)fmax(block->reach_px, ceil((double)image_row(&filter->radius, 0, y)[x]));
+        block->walk.reach_px = (int)fmax(block->walk.reach_px, ceil((double)image_row(&filter->radius, 0, y)[x]));
     return true;
 }
 
@@ -516,24 +375,26 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
     struct filter *filter = fast->filter;
     double phong_most_used = 0;
     bool any = false;
-    *block = (struct block){.left = x,
-                            .top = y,
-                            .right = x + (SIDE - 1) * apart,
-                            .bottom = y + (SIDE - 1) * apart,
-                            .finest = apart > 2 ? apart / 2 : 1,
-                            .everything = filter->options->without & FILTER_WITHOUT_VISIBILITY};
+    *block = (struct block){.walk = {.left = x,
+                                     .top = y,
+                                     .right = x + (SIDE - 1) * apart,
+                                     .bottom = y + (SIDE - 1) * apart,
+                                     .finest = apart > 2 ? apart / 2 : 1,
+                                     .lanes = &block->lattice.group.lanes,
+                                     .size = fast->settings.size,
+                                     .hidden = fast->settings.hidden}};
     block->lattice.group.lanes = block->between.group.lanes = filter_lanes_empty(x, y);
     for (int l = 0; l < LANES; l++) {
         const int u = x + l % SIDE * apart, v = y + l / SIDE * apart;
         if (!pixel_add(fast, block, &block->lattice, l, u, v))
             continue;
         if (!any || l == LANES / 2)
-            block->middle = l;
+            block->walk.middle = l;
         any = true;
         phong_most_used = fmax(phong_most_used, filter_exponent_at(filter, u, v));
     }
-    block->lobe = lobe_integral(phong_most_used, filter->floor);
-    block->spread_limit = fast->settings->spread * fast->settings->spread / (float)fmax(phong_most_used, 1);
+    block->walk.lobe = (float)lobe_integral(phong_most_used, filter->floor);
+    block->walk.spread = fast->settings.spread / (float)sqrt(fmax(phong_most_used, 1));
     return any;
 }
 
@@ -550,8 +411,8 @@ static bool between_fill(struct fast *fast, int apart, struct block *block)
 {
     const struct filter *filter = fast->filter;
     const int size = SIDE * apart;
-    for (int y = block->top; y < block->top + size; y++)
-        for (int x = block->left; x < block->left + size; x++) {
+    for (int y = block->walk.top; y < block->walk.top + size; y++)
+        for (int x = block->walk.left; x < block->walk.left + size; x++) {
             int dx, dy;
             if ((x % apart == 0 && y % apart == 0) || !filter_is_inside(filter, x, y) ||
                 !filter_is_glossy(filter, x, y))
@@ -564,15 +425,15 @@ static bool between_fill(struct fast *fast, int apart, struct block *block)
                 return false;
             block->between_count += pixel_add(fast, block, &block->between, block->between_count, x, y);
         }
-    block->right = block->left + size - 1;
-    block->bottom = block->top + size - 1;
+    block->walk.right = block->walk.left + size - 1;
+    block->walk.bottom = block->walk.top + size - 1;
     return true;
 }
 
 /* What brings a shift from a pixel to the next to that over a block of level k, of how far things may. */
 static float shift_scale(const struct fast *fast, const struct rate *rate, int k)
 {
-    return (float)(SIDE << k) * sqrtf(fmaxf(rate->phong_high, 1)) / fast->settings->smooth;
+    return (float)(SIDE << k) * sqrtf(fmaxf(rate->phong_high, 1)) / fast->settings.smooth;
 }
 
 /* Whether a part of what lane l sees is more than `limit` of it. */
@@ -582,22 +443,26 @@ static bool is_more(const struct pixels *pixels, const struct filter_moments *se
     return pixels->at.used[l] && part[l] > limit * (float)seen->value[FILTER_MOMENT_1][l];
 }
 
+static void pixels_see(struct worker *worker, struct pixels *pixels, struct filter_moments *seen)
+{
+    const struct filter_nodes *nodes = &worker->nodes;
+    if (!worker->out_of_memory)
+        worker->fast->filter->sight->see(nodes->nodes, nodes->hidden, nodes->count, &pixels->group, seen);
+}
+
 /* What the pixels of the lattice see, from the block's corners or by their own sight, and of which nodes. False: to a
  * pixel between no corner is alike. */
 static bool block_see(struct worker *worker, struct block *block, int k, const bool own[LANES],
                       struct filter_moments *seen)
 {
     struct fast *fast = worker->fast;
-    const int top = CELL_LEVELS - 1;
-    if (!block->everything && !sights_choose(worker, block, SIDE << k, own))
+    const bool everything = fast->filter->options->without & FILTER_WITHOUT_VISIBILITY;
+    if (!everything && !sights_choose(worker, block, SIDE << k, own))
         return false;
-    worker->count = 0;
-    const struct look whole = look_from(block);
-    for (int v = 0; v < fast->cells.height[top] && !worker->out_of_memory; v++)
-        for (int u = 0; u < fast->cells.width[top]; u++)
-            cell_walk(worker, block, top, u, v, &whole);
     if (!worker->out_of_memory)
-        fast->filter->sight->see(worker->nodes, worker->hidden, worker->count, &block->lattice.group, seen);
+        filter_walk(fast->filter, &fast->cells, &block->walk, &worker->nodes);
+    worker->out_of_memory = worker->out_of_memory || worker->nodes.out_of_memory;
+    pixels_see(worker, &block->lattice, seen);
     return true;
 }
 
@@ -608,11 +473,34 @@ static void pixels_write(struct worker *worker, struct pixels *pixels, const str
     struct filter_sums pool = {0};
     struct filter_help help[LANES] = {{0}};
     if (filter_help_needed(filter, &pixels->at, seen, &pixels->group.lanes, help))
-        filter->sight->pool(worker->nodes, worker->count, &pixels->group, &pool);
+        filter->sight->pool(worker->nodes.nodes, worker->nodes.count, &pixels->group, &pool);
     filter_write_best(filter, &pixels->at, seen, &pool, help);
     for (int l = 0; l < LANES; l++)
         if (pixels->at.used[l])
             fast->known[pixel_of(fast, pixels->at.xs[l], pixels->at.ys[l])] = 1;
+}
+
+/* Whether the results of the lattice are about on a line, from each pixel to the next ones in its row and column. */
+static bool is_even(const struct fast *fast, const struct pixels *lattice)
+{
+    for (int i = 0; i < 3; i++) {
+        float bend = 0, most = 0, value[LANES];
+        for (int l = 0; l < LANES; l++) {
+            value[l] = lattice->at.used[l]
+                           ? image_row(fast->filter->glossy, i, lattice->at.ys[l])[lattice->at.xs[l]] : NAN;
+            most = fmaxf(most, fabsf(value[l]));
+        }
+        for (int l = 0; l < LANES; l++) {
+            const bool row = l % SIDE > 0 && l % SIDE < SIDE - 1, column = l / SIDE > 0 && l / SIDE < SIDE - 1;
+            if (row)
+                bend = fmaxf(bend, fabsf(value[l - 1] - 2 * value[l] + value[l + 1]));
+            if (column)
+                bend = fmaxf(bend, fabsf(value[l - SIDE] - 2 * value[l] + value[l + SIDE]));
+        }
+        if (bend > fast->settings.bend * most)
+            return false;
+    }
+    return true;
 }
 
 /* Computes the pixels of a block of level k. False: what it sees is too near for so large a block, or is seen too
@@ -620,7 +508,7 @@ static void pixels_write(struct worker *worker, struct pixels *pixels, const str
 static bool block_compute(struct worker *worker, const struct rate *rate, int x, int y, int k)
 {
     struct fast *fast = worker->fast;
-    const struct settings *settings = fast->settings;
+    const struct settings *settings = &fast->settings;
     struct block block;
     struct pixels *lattice = &block.lattice, *between = &block.between;
     struct filter_moments seen = {0}, seen_between = {0};
@@ -638,37 +526,42 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
         any_own = any_own || is_more(lattice, &seen, lattice->group.unlike, l, settings->unlike);
         steady = steady && !is_more(lattice, &seen, lattice->group.unsteady, l, settings->unsteady);
     }
-    if (k > 0 && (any_own || !steady))
+    if (k > 0 && any_own)
         return false;
     if (any_own)
         block_see(worker, &block, k, own, &seen);
-    if (block.between_count > 0 && !worker->out_of_memory)
-        fast->filter->sight->see(worker->nodes, worker->hidden, worker->count, &between->group, &seen_between);
+    if (!worker->out_of_memory)
+        pixels_write(worker, lattice, &seen);
+    if (k > 0 && !steady && !is_even(fast, lattice))
+        return false;
+    if (block.between_count > 0)
+        pixels_see(worker, between, &seen_between);
     for (int l = 0; l < block.between_count; l++)
         if (is_more(between, &seen_between, between->group.unlike, l, settings->unlike))
             return false;
-    if (worker->out_of_memory)
-        return true;
-    pixels_write(worker, lattice, &seen);
-    if (block.between_count > 0)
+    if (block.between_count > 0 && !worker->out_of_memory)
         pixels_write(worker, between, &seen_between);
     return true;
 }
 
-/* Whether so few pixels lie in the lobes of 16 x 16 pixels, even of far things, that summing over all of them is
- * faster; or so narrow lobes are there that clusters would lose them. */
-static bool is_narrow(const struct fast *fast, const struct rate *rate, int x, int y)
+/* Whether summing over all pixels is faster for 16 x 16 of them, so few lie in their lobes, even of far things; or the
+ * lobes are so narrow that clusters would lose them. */
+static bool is_exact(const struct fast *fast, const struct rate *rate, int x, int y)
 {
     const struct filter *filter = fast->filter;
     struct filter_lanes lanes = filter_lanes_empty(x, y);
     float most = 0;
+    int used = 0, lent = 0;
     for (int l = 0; l < LANES; l++) {
         const int u = x + l % SIDE * SIDE, v = y + l / SIDE * SIDE;
-        if (filter_is_inside(filter, u, v) && filter_is_glossy(filter, u, v) &&
-            filter_lane_fill(filter, u, v, l, &lanes))
-            most = fmaxf(most, lanes.reach[l] / lanes.step[l] * fmaxf(lanes.reach[l] / narrow_reach, 1));
+        if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v) ||
+            !filter_lane_fill(filter, u, v, l, &lanes))
+            continue;
+        most = fmaxf(most, lanes.reach[l] / lanes.step[l] * fmaxf(lanes.reach[l] / narrow_reach, 1));
+        used++;
+        lent += is_alike(filter, u, v, u + 1, v, lent_most) && is_alike(filter, u, v, u, v + 1, lent_most);
     }
-    return rate->phong_high > phong_most || (most > 0 && most < few_pixels);
+    return rate->phong_high > phong_most || (used > 0 && most < (4 * lent < 3 * used ? rough_pixels : few_pixels));
 }
 
 /* Every tap of 16 x 16 pixels' lobes. */
@@ -693,7 +586,7 @@ static void block_do(struct worker *worker, int x, int y, int k)
     const struct rate rate = rate_of_block(fast, x / size, y / size, k);
     if (rate.phong_high < 0)
         return;
-    if (size == LANES && is_narrow(fast, &rate, x, y)) {
+    if (size == LANES && is_exact(fast, &rate, x, y)) {
         block_exact(worker, x, y);
         return;
     }
@@ -723,8 +616,8 @@ static void rows_do(void *context, int first, int end)
             block_do(&worker, x, row * LARGEST, BLOCK_LEVELS - 1);
     for (int i = 0; i < SIGHTS; i++)
         sight_free(&worker.sights[i]);
-    free(worker.hidden);
-    free(worker.nodes);
+    free(worker.nodes.hidden);
+    free(worker.nodes.nodes);
     free(worker.exact);
     sight_scratch_free(&worker.scratch);
     if (worker.out_of_memory)
@@ -811,7 +704,7 @@ enum result filter_fast(struct filter *filter, struct error *err)
     if (result != RESULT_OK)
         return result;
     struct fast *fast = filter->fast;
-    fast->settings = &settings_of[filter->options->quality];
+    fast->settings = settings_of(filter->options->tolerance);
     fast->known = calloc(pixels, 1);
     fast->apart = calloc(pixels, 1);
     if (!fast->known || !fast->apart)

@@ -51,13 +51,24 @@ struct filter_help {
     double missing; /* their weights come to this many steradians besides */
 };
 
-bool filter_is_inside(const struct filter *filter, int x, int y);
-bool filter_is_glossy(const struct filter *filter, int x, int y);
+
+static inline const float *filter_tap_at(const struct filter *filter, enum filter_plane plane, int x, int y)
+{
+    return filter->taps.planes[plane] + (size_t)y * filter->taps.stride + (size_t)x + FILTER_BORDER;
+}
+
+static inline bool filter_is_glossy(const struct filter *filter, int x, int y)
+{
+    return *filter_tap_at(filter, FILTER_PLANE_GAIN, x, y) > 0;
+}
+
+static inline bool filter_is_inside(const struct filter *filter, int x, int y)
+{
+    return x >= 0 && y >= 0 && x < filter->taps.width && y < filter->taps.height;
+}
 
 /* The exponent of a glossy pixel. */
 double filter_exponent_at(const struct filter *filter, int x, int y);
-
-const float *filter_tap_at(const struct filter *filter, enum filter_plane plane, int x, int y);
 
 /* a in the units of the taps. */
 void filter_position_at(const struct filter *filter, int x, int y, float a[3]);

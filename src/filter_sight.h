@@ -12,7 +12,8 @@
 enum {
     SIGHTS_OF_GROUP = 4 + FILTER_LANES, /* that its pixels may use: 4 corners and one for each pixel */
     SIGHT_HIDDEN = 255,                 /* all of it */
-    SIGHT_TILE = 16,                    /* pixels across a tile; a cell of it is 4 across */
+    SIGHT_TILE_LEVEL = 4,
+    SIGHT_TILE = 1 << SIGHT_TILE_LEVEL, /* pixels across a tile; a cell of it is 4 across */
     SIGHT_TILE_AREA = SIGHT_TILE * SIGHT_TILE,
     SIGHT_PACKED = 512,                 /* bytes of a tile's levels */
     SIGHT_MARGIN = 64
@@ -81,7 +82,8 @@ struct filter_node {
     float x, y, z, w;
     float solid;         /* steradians from their own a's, all together */
     float cap;           /* mean of one's over 2 pi */
-    float spread;        /* variance of their directions, seen from the mean of their own a's, radians^2 */
+    float spread;        /* standard deviation of their directions, seen from the mean of their own a's, radians */
+    float depth;         /* that of W/r' */
     float radiance[3];   /* mean of L0, R, G, B, and of (R + G + B)^2, by the solid angle */
     float square;
     float column, row;   /* middle, pixels */

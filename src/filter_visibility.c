@@ -5,11 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    TILE_LEVEL = 4, /* a tile is 2^4 pixels across */
-    TILE_SEEN = -1,
-    TILE_HIDDEN = -2
-};
+/* In place of a tile's place among the levels. */
+enum { TILE_SEEN = -1, TILE_HIDDEN = -2 };
 
 enum { CELL_ROW = 4 * SIGHT_TILE };
 
@@ -107,39 +104,94 @@ void sight_scratch_free(struct sight_scratch *scratch)
     free(scratch->march);
 }
 
-static bool sight_reserve(struct sight *sight, size_t tiles, size_t bytes)
+static bool sight_reserve(struct sight *sight, size_t tiles, size_t shares)
 {
     if (tiles > sight->tile_capacity) {
         free(sight->tiles);
         sight->tiles = malloc(tiles * sizeof *sight->tiles);
         sight->tile_capacity = sight->tiles ? tiles : 0;
     }
+    if (shares > sight->share_capacity) {
+        free(sight->shares);
+        sight->shares = malloc(shares * sizeof *sight->shares);
+        sight->share_capacity = sight->shares ? shares : 0;
+    }
+    return tiles <= sight->tile_capacity && shares <= sight->share_capacity;
+}
+
+static bool levels_reserve(struct sight *sight, size_t bytes)
+{
     if (bytes > sight->capacity) {
         uint8_t *levels = realloc(sight->levels, 2 * bytes);
         sight->levels = levels ? levels : sight->levels;
         sight->capacity = levels ? 2 * bytes : sight->capacity;
     }
-    return tiles <= sight->tile_capacity && bytes <= sight->capacity;
+    return bytes <= sight->capacity;
+}
+
+/* The levels above the tiles, which are at `extent`. How many cells all have. */
+static size_t coarse_place(struct sight *sight, struct sight_extent extent)
+{
+    size_t count = 0;
+    for (int i = 0; i < SIGHT_COARSE_LEVELS; i++) {
+        const int left = extent.left >> i, top = extent.top >> i;
+        const struct sight_coarse coarse = {.left = left,
+                                            .top = top,
+                                            .across = (extent.right >> i) + 1 - left,
+                                            .down = (extent.bottom >> i) + 1 - top,
+                                            .first = count};
+        sight->coarse[i] = coarse;
+        count += (size_t)coarse.across * (size_t)coarse.down;
+    }
+    return count;
+}
+
+/* The shares of all cells larger than a tile, each from its four of the level below. */
+static void coarse_fill(struct sight *sight)
+{
+    for (int i = 1; i < SIGHT_COARSE_LEVELS; i++) {
+        const struct sight_coarse *coarse = &sight->coarse[i];
+        for (int c = 0; c < coarse->across * coarse->down; c++) {
+            const int x = coarse->left + c % coarse->across, y = coarse->top + c / coarse->across;
+            int sum = 0, least = SIGHT_HIDDEN, most = 0;
+            for (int n = 0; n < 4; n++) {
+                int share[3];
+                sight_share(sight, SIGHT_TILE_LEVEL + i - 1, 2 * x + n % 2, 2 * y + n / 2, share);
+                sum += share[0];
+                least = share[1] < least ? share[1] : least;
+                most = share[2] > most ? share[2] : most;
+            }
+            uint8_t *to = sight->shares[coarse->first + (size_t)c];
+            to[0] = (uint8_t)((sum + 2) / 4);
+            to[1] = (uint8_t)least;
+            to[2] = (uint8_t)most;
+        }
+    }
 }
 
 /* Takes the marched map over; it is all hidden again. */
 static bool sight_keep(const struct filter_visibility *visibility, uint8_t *map, struct sight_extent extent,
                        struct sight *sight)
 {
+    const size_t shares = coarse_place(sight, extent);
+    const struct sight_coarse *tiles = &sight->coarse[0];
     size_t used = 0;
-    sight->left = extent.left;
-    sight->top = extent.top;
-    sight->across = extent.right + 1 - extent.left;
-    sight->down = extent.bottom + 1 - extent.top;
-    for (int i = 0; i < sight->across * sight->down; i++) {
-        const int column = extent.left + i % sight->across, row = extent.top + i / sight->across;
-        if (!sight_reserve(sight, (size_t)sight->across * (size_t)sight->down, (used + 1) * SIGHT_PACKED))
+    if (!sight_reserve(sight, (size_t)tiles->across * (size_t)tiles->down, shares))
+        return false;
+    for (int i = 0; i < tiles->across * tiles->down; i++) {
+        const int column = tiles->left + i % tiles->across, row = tiles->top + i / tiles->across;
+        if (!levels_reserve(sight, (used + 1) * SIGHT_PACKED))
             return false;
+        uint8_t *levels = sight->levels + used * SIGHT_PACKED;
         const enum sight_kind kind = visibility->filter->sight->pack(
-            map + ((size_t)row * (size_t)visibility->across + (size_t)column) * SIGHT_TILE_AREA,
-            sight->levels + used * SIGHT_PACKED);
+            map + ((size_t)row * (size_t)visibility->across + (size_t)column) * SIGHT_TILE_AREA, levels);
         sight->tiles[i] = kind == SIGHT_MIXED ? (int32_t)used++ : kind == SIGHT_ALL_SEEN ? TILE_SEEN : TILE_HIDDEN;
+        if (kind == SIGHT_MIXED)
+            memcpy(sight->shares[i], levels + sight_level(SIGHT_TILE_LEVEL), 3);
+        else
+            memset(sight->shares[i], kind == SIGHT_ALL_SEEN ? 0 : SIGHT_HIDDEN, 3);
     }
+    coarse_fill(sight);
     return true;
 }
 
@@ -178,46 +230,29 @@ bool sight_make(const struct filter_visibility *visibility, int x, int y, struct
 
 void sight_free(struct sight *sight)
 {
+    free(sight->shares);
     free(sight->tiles);
     free(sight->levels);
 }
 
-/* Of a cell that is no larger than a tile. */
-static void share_within(const struct sight *sight, int k, int x, int y, int share[3])
+/* The place of cell (x, y) among those of a level; -1: it is outside. */
+static int place_of(const struct sight_coarse *coarse, int x, int y)
 {
-    const int up = k < TILE_LEVEL ? TILE_LEVEL - k : 0;
-    const int column = (x >> up) - sight->left, row = (y >> up) - sight->top;
-    share[0] = share[1] = share[2] = SIGHT_HIDDEN;
-    if (column < 0 || row < 0 || column >= sight->across || row >= sight->down)
-        return;
-    const int32_t tile = sight->tiles[row * sight->across + column];
-    if (tile == TILE_SEEN)
-        share[0] = share[1] = share[2] = 0;
-    if (tile < 0)
-        return;
-    const int size = 1 << up, at = (y & (size - 1)) * size + (x & (size - 1));
-    const uint8_t *level = sight->levels + (size_t)tile * SIGHT_PACKED + sight_level(k);
-    for (int i = 0; i < 3; i++)
-        share[i] = level[k > 0 ? i * size * size + at : at];
+    const int column = x - coarse->left, row = y - coarse->top;
+    return column < 0 || row < 0 || column >= coarse->across || row >= coarse->down ? -1
+                                                                                    : row * coarse->across + column;
 }
 
 void sight_share(const struct sight *sight, int k, int x, int y, int share[3])
 {
-    if (k <= TILE_LEVEL) {
-        share_within(sight, k, x, y, share);
-        return;
-    }
-    const int size = 1 << (k - TILE_LEVEL);
-    int sum = 0;
-    share[1] = SIGHT_HIDDEN;
-    share[2] = 0;
-    for (int v = y * size; v < (y + 1) * size; v++)
-        for (int u = x * size; u < (x + 1) * size; u++) {
-            int one[3];
-            share_within(sight, TILE_LEVEL, u, v, one);
-            sum += one[0];
-            share[1] = one[1] < share[1] ? one[1] : share[1];
-            share[2] = one[2] > share[2] ? one[2] : share[2];
-        }
-    share[0] = sum / (size * size);
+    const struct sight_coarse *coarse = &sight->coarse[k - SIGHT_TILE_LEVEL];
+    const int place = place_of(coarse, x, y);
+    for (int i = 0; i < 3; i++)
+        share[i] = place < 0 ? SIGHT_HIDDEN : sight->shares[coarse->first + (size_t)place][i];
+}
+
+const uint8_t *sight_levels(const struct sight *sight, int x, int y)
+{
+    const int place = place_of(&sight->coarse[0], x, y);
+    return place < 0 || sight->tiles[place] < 0 ? NULL : sight->levels + (size_t)sight->tiles[place] * SIGHT_PACKED;
 }

@@ -36,7 +36,7 @@ no_screen() {
 }
 check 'view__no_screen__says_so' no_screen
 
-Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3> display > xvfb.log 2>&1 &
+Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp -noreset 3> display > xvfb.log 2>&1 &
 xvfb=$!
 trap 'kill $xvfb 2> /dev/null; wait $xvfb 2> /dev/null; rm -rf "$scratch"' EXIT
 for ((i = 0; i < 100; i++)); do
@@ -54,7 +54,7 @@ find_window() {
 }
 # Until the title is TITLE: the whole picture is there.
 wait_for() {
-    local i title
+    local i title=
     for ((i = 0; i < 300; i++)); do
         find_window && title=$(xdotool getwindowname "$window") && [ "$title" = "passes.exr: $1" ] && return
         sleep 0.1

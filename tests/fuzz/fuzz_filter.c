@@ -73,7 +73,7 @@ static struct filter_options take_options(struct bytes *bytes)
     options.radius_step = 1 << limits % 4;
     options.max_radius_px = limits / 4 % 4 ? 0 : (int)take(bytes);
     options.energy = (take(bytes) + 0.5) / 256;
-    options.quality = (enum filter_quality)(take(bytes) % 4);
+    options.tolerance = FILTER_TOLERANCE_DRAFT * (take(bytes) % 2);
     options.max_angle_rad = (take(bytes) + 1) / 256.0 * 1.5707963267948966;
     return options;
 }

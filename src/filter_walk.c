@@ -1,0 +1,190 @@
+/* The walk over the cells, from the coarsest to those that are used whole. */
+#include "filter_walk.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A cell's hidden share may always be off by so much. */
+static const float range_least = 0.05f;
+
+/* How many times larger a cell that no sight sees may be. */
+static const float unseen_size = 3;
+
+struct walker {
+    const struct filter *filter;
+    const struct filter_cells *cells;
+    const struct filter_walk *walk;
+    struct filter_nodes *list;
+    /* For each sight, of the cell where the walk is: */
+    float hidden[SIGHTS_OF_GROUP];
+    const uint8_t *tiles[SIGHTS_OF_GROUP]; /* the levels of the tile that it lies in */
+};
+
+/* How a cell is seen. */
+struct look {
+    bool seen;                           /* by a sight that isn't open */
+    float range;                         /* how far least and largest hidden share of a sight are apart */
+    unsigned char open[SIGHTS_OF_GROUP]; /* sights that don't see all of it alike */
+    int open_count;
+};
+
+/* How cell (x, y) of level k is seen, which is part of a cell that is seen as in `whole`. */
+static struct look look_at(struct walker *walker, int k, int x, int y, const struct look *whole)
+{
+    struct look look = {.seen = whole->seen};
+    int range = 0;
+    for (int i = 0; i < whole->open_count; i++) {
+        const unsigned char s = whole->open[i];
+        const struct sight *sight = walker->walk->sights[s];
+        int share[3];
+        if (k >= SIGHT_TILE_LEVEL)
+            sight_share(sight, k, x, y, share);
+        else
+            sight_share_within(walker->tiles[s], k, x, y, share);
+        if (k == SIGHT_TILE_LEVEL)
+            walker->tiles[s] = sight_levels(sight, x, y);
+        walker->hidden[s] = (float)share[0] / SIGHT_HIDDEN;
+        if (share[2] > share[1])
+            look.open[look.open_count++] = s;
+        else
+            look.seen = look.seen || share[1] < SIGHT_HIDDEN;
+        range = share[2] - share[1] > range ? share[2] - share[1] : range;
+    }
+    look.range = (float)range / SIGHT_HIDDEN;
+    return look;
+}
+
+/* A layer of a cell from the middle lane. */
+struct view {
+    float spread; /* standard deviation of its directions, radians */
+    float weight; /* in the lobe, about, or somewhat more; 0: it is out of it */
+};
+
+static struct view view_of(const struct filter_walk *walk, const struct filter_cell *cell, int i)
+{
+    const struct filter_lanes *lanes = walk->lanes;
+    const struct filter_node *layer = &cell->layer[i];
+    const int l = walk->middle;
+    const float margin = 1.3f, a[3] = {lanes->a[0][l], lanes->a[1][l], lanes->a[2][l]};
+    const float v[3] = {layer->x - layer->w * a[0], layer->y - layer->w * a[1], layer->z - layer->w * a[2]};
+    float c = 0, square = 0;
+    if (layer->solid == 0)
+        return (struct view){0};
+    for (int k = 0; k < 3; k++) {
+        c += v[k] * lanes->direction[k][l];
+        square += v[k] * v[k];
+    }
+    const float spread = filter_node_spread(layer, cell->a, a), off = 2 * spread, distance = sqrtf(square);
+    const float nearest = distance > off ? distance - off : 0, aside_square = square - c * c;
+    const float aside = aside_square > off * off ? sqrtf(aside_square) - off : 0;
+    struct view view = {.spread = spread / (distance + FLT_MIN)};
+    const float t = aside / (c + off) * aside / (c + off);
+    if (c + off > 0 && t <= lanes->reach[l] * margin)
+        view.weight = exp2f(-lanes->slope[l] * log2f(1 + t)) * layer->solid /
+                      fmaxf(nearest * nearest, (float)(1 / FILTER_MOST_ENLARGED));
+    return view;
+}
+
+/* Whether the cell, small enough for its distance, is to be opened: its directions differ too much, or part of it is
+ * hidden, and that counts. *visible: whether any of it is seen, which it isn't out of the lobe. */
+static bool is_mixed(const struct filter_walk *walk, const struct filter_cell *cell, const struct look *look,
+                     bool *visible)
+{
+    const struct view near = view_of(walk, cell, 0), far = view_of(walk, cell, 1);
+    const float weight = near.weight + far.weight;
+    const bool spread =
+        (near.weight > 0 && near.spread > walk->spread) || (far.weight > 0 && far.spread > walk->spread);
+    *visible = *visible && weight > 0;
+    return spread || (*visible && look->range > range_least && weight * look->range > walk->hidden * walk->lobe);
+}
+
+static bool nodes_reserve(struct filter_nodes *list)
+{
+    if (list->count < list->capacity)
+        return true;
+    const int capacity = list->capacity ? 2 * list->capacity : 4096;
+    struct filter_node *nodes = realloc(list->nodes, (size_t)capacity * sizeof *nodes);
+    list->nodes = nodes ? nodes : list->nodes;
+    float *hidden = realloc(list->hidden, (size_t)capacity * SIGHTS_OF_GROUP * sizeof *hidden);
+    list->hidden = hidden ? hidden : list->hidden;
+    list->capacity = nodes && hidden ? capacity : list->capacity;
+    list->out_of_memory = !nodes || !hidden;
+    return !list->out_of_memory;
+}
+
+static void node_add(struct walker *walker, const struct filter_node *node, float column, float row, bool visible)
+{
+    struct filter_nodes *list = walker->list;
+    if (!nodes_reserve(list))
+        return;
+    struct filter_node *added = &list->nodes[list->count];
+    float *hidden = list->hidden + (size_t)list->count++ * SIGHTS_OF_GROUP, low = 1, high = 0;
+    *added = *node;
+    added->column = column;
+    added->row = row;
+    added->visible = visible;
+    added->unlike = 0;
+    if (!visible)
+        return;
+    hidden[0] = 0;
+    for (int s = 0; s < walker->walk->sight_count; s++) {
+        const float share = walker->hidden[s];
+        hidden[s] = share;
+        low = share < low ? share : low;
+        high = share > high ? share : high;
+    }
+    added->unlike = high > low ? high - low : 0;
+}
+
+/* Adds the nodes of a cell of level k, or of its parts. */
+static void cell_walk(struct walker *walker, int k, int x, int y, const struct look *whole)
+{
+    const struct filter_walk *walk = walker->walk;
+    const struct filter_cells *cells = walker->cells;
+    const int size = 1 << k, left = x << k, top = y << k, right = left + size - 1, bottom = top + size - 1;
+    const int off_x = left > walk->right ? left - walk->right : walk->left > right ? walk->left - right : 0;
+    const int off_y = top > walk->bottom ? top - walk->bottom : walk->top > bottom ? walk->top - bottom : 0;
+    const int away = off_x > off_y ? off_x : off_y;
+    const float column = (float)left + (float)(size - 1) / 2, row = (float)top + (float)(size - 1) / 2;
+    if (walker->list->out_of_memory)
+        return;
+    const struct look look = look_at(walker, k, x, y, whole);
+    bool visible = look.seen || look.open_count > 0;
+    if (!visible && away > walk->reach_px)
+        return;
+    if (k == 0) {
+        struct filter_node node;
+        if (filter_cell_of_pixel(walker->filter, x, y, &node))
+            node_add(walker, &node, column, row, visible);
+        return;
+    }
+    const struct filter_cell *cell = &cells->level[k][(size_t)y * (size_t)cells->width[k] + (size_t)x];
+    const bool large = size > walk->finest && (float)size > (float)away * walk->size * (visible ? 1 : unseen_size);
+    if (cell->pixels == 0)
+        return;
+    if (large || is_mixed(walk, cell, &look, &visible)) {
+        for (int v = 2 * y; v < 2 * y + 2 && v < cells->height[k - 1]; v++)
+            for (int u = 2 * x; u < 2 * x + 2 && u < cells->width[k - 1]; u++)
+                cell_walk(walker, k - 1, u, v, &look);
+        return;
+    }
+    for (int i = 0; i < 2; i++)
+        if (cell->layer[i].solid > 0 && (visible || away <= walk->reach_px))
+            node_add(walker, &cell->layer[i], column, row, visible);
+}
+
+void filter_walk(const struct filter *filter, const struct filter_cells *cells, const struct filter_walk *walk,
+                 struct filter_nodes *nodes)
+{
+    const int top = CELL_LEVELS - 1;
+    struct walker walker = {.filter = filter, .cells = cells, .walk = walk, .list = nodes};
+    struct look whole = {.seen = walk->sight_count == 0, .open_count = walk->sight_count};
+    for (int s = 0; s < walk->sight_count; s++)
+        whole.open[s] = (unsigned char)s;
+    nodes->count = 0;
+    for (int y = 0; y < cells->height[top]; y++)
+        for (int x = 0; x < cells->width[top]; x++)
+            cell_walk(&walker, top, x, y, &whole);
+}
