@@ -146,8 +146,7 @@ static enum result set_quality(const char *name, const char *value, struct cli_f
 
 static enum result set_tolerance(const char *name, const char *value, struct cli_filter *options, struct error *err)
 {
-    return cli_number(name, value, FILTER_TOLERANCE_LEAST, FILTER_TOLERANCE_DRAFT, &options->filter.tolerance,
-                      err);
+    return cli_number(name, value, FILTER_TOLERANCE_LEAST, FILTER_TOLERANCE_DRAFT, &options->filter.tolerance, err);
 }
 
 static enum result set_without(const char *name, const char *value, struct cli_filter *options, struct error *err)

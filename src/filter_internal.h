@@ -51,7 +51,6 @@ struct filter_help {
     double missing; /* their weights come to this many steradians besides */
 };
 
-
 static inline const float *filter_tap_at(const struct filter *filter, enum filter_plane plane, int x, int y)
 {
     return filter->taps.planes[plane] + (size_t)y * filter->taps.stride + (size_t)x + FILTER_BORDER;

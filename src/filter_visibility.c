@@ -104,19 +104,16 @@ void sight_scratch_free(struct sight_scratch *scratch)
     free(scratch->march);
 }
 
-static bool sight_reserve(struct sight *sight, size_t tiles, size_t shares)
+static bool cells_reserve(struct sight *sight, size_t cells)
 {
-    if (tiles > sight->tile_capacity) {
+    if (cells > sight->cell_capacity) {
         free(sight->tiles);
-        sight->tiles = malloc(tiles * sizeof *sight->tiles);
-        sight->tile_capacity = sight->tiles ? tiles : 0;
-    }
-    if (shares > sight->share_capacity) {
         free(sight->shares);
-        sight->shares = malloc(shares * sizeof *sight->shares);
-        sight->share_capacity = sight->shares ? shares : 0;
+        sight->tiles = malloc(cells * sizeof *sight->tiles);
+        sight->shares = malloc(cells * sizeof *sight->shares);
+        sight->cell_capacity = sight->tiles && sight->shares ? cells : 0;
     }
-    return tiles <= sight->tile_capacity && shares <= sight->share_capacity;
+    return cells <= sight->cell_capacity;
 }
 
 static bool levels_reserve(struct sight *sight, size_t bytes)
@@ -173,10 +170,9 @@ static void coarse_fill(struct sight *sight)
 static bool sight_keep(const struct filter_visibility *visibility, uint8_t *map, struct sight_extent extent,
                        struct sight *sight)
 {
-    const size_t shares = coarse_place(sight, extent);
     const struct sight_coarse *tiles = &sight->coarse[0];
     size_t used = 0;
-    if (!sight_reserve(sight, (size_t)tiles->across * (size_t)tiles->down, shares))
+    if (!cells_reserve(sight, coarse_place(sight, extent)))
         return false;
     for (int i = 0; i < tiles->across * tiles->down; i++) {
         const int column = tiles->left + i % tiles->across, row = tiles->top + i / tiles->across;

@@ -28,7 +28,7 @@ struct sight {
     struct sight_coarse coarse[SIGHT_COARSE_LEVELS];
     uint8_t (*shares)[3];        /* mean, least and largest hidden share of each cell */
     int32_t *tiles;              /* each one's place among the levels, or below 0: all of it is seen, or hidden */
-    size_t tile_capacity, share_capacity;
+    size_t cell_capacity;
     uint8_t *levels; /* sight_pack() */
     size_t capacity;
 };
