@@ -50,6 +50,7 @@ struct filter_options filter_options_default(void)
         .window = FILTER_WINDOW_ROUND,
         .tolerance = FILTER_TOLERANCE_NORMAL,
         .phong = NAN,
+        .energy = 0.99,
         .max_angle_rad = 1.57079632679489662,
         .radius_step = 1,
     };
@@ -297,7 +298,7 @@ static double radius_at(const struct filter *filter, int x, int y)
     double phong = filter_exponent_at(filter, x, y), radius;
     if (phong >= mirror_phong)
         return 0;
-    double half_angle = lobe_half_angle(phong, filter->energy, filter->options->max_angle_rad);
+    double half_angle = lobe_half_angle(phong, filter->options->energy, filter->options->max_angle_rad);
     if (gbuffer->has_eye && gbuffer->view_angle > 0) {
         struct sample sample;
         double s = 0, r = 0;
@@ -773,7 +774,7 @@ static enum result check_plane(const struct image *image, const char *name, int 
 
 static enum result check(const struct gbuffer *gbuffer, const struct filter_options *options, struct error *err)
 {
-    assert(options->energy >= 0 && options->energy < 1 && options->max_angle_rad > 0 && options->max_radius_px >= 0);
+    assert(options->energy > 0 && options->energy < 1 && options->max_angle_rad > 0 && options->max_radius_px >= 0);
     assert(options->radius_step > 0 && options->threads >= 0 && !(options->phong < 0));
     const struct image *size = &gbuffer->specular;
     enum result result = check_plane(size, "specular", 3, size, err);
@@ -877,8 +878,7 @@ static enum result call_begin(struct filter *filter, const struct filter_options
     filter->kernel = kernels[isa];
     filter->see = sees[isa];
     filter->sight = sights[isa];
-    filter->energy = options->energy > 0 ? options->energy : 0.99;
-    filter->floor = options->energy > 0 ? 1 - options->energy : 0.001;
+    filter->floor = 1 - options->energy;
     filter->radius_limit_px = hypot(width, height);
     if (options->max_radius_px > 0)
         filter->radius_limit_px = fmin(filter->radius_limit_px, options->max_radius_px);

@@ -41,7 +41,7 @@ struct filter_options {
     unsigned without;     /* the best's alone: set of enum filter_without */
     float phong;          /* exponent where the gbuffer has none: 0 to infinity; NaN: none is known */
     bool phong_override;  /* phong takes the place of the gbuffer's exponents, too; not glossy stays not glossy */
-    double energy;        /* share of the lobe's energy within Theta, (0, 1); 0: 0.99 (paper), 0.999 (best) */
+    double energy;        /* share of the lobe's energy within Theta, (0, 1) */
     double max_angle_rad; /* upper limit of Theta, (0, pi/2] */
     int max_radius_px;    /* upper limit of the radius; 0: none but the picture's diagonal */
     int radius_step;      /* 1, 2, 4 or 8: the radius is computed at every so-many-th pixel and interpolated */
@@ -49,8 +49,8 @@ struct filter_options {
     enum cpu_isa isa;     /* the result is the same to the last bit */
 };
 
-/* Best, FILTER_TOLERANCE_NORMAL; exact weights, Phong formula, round window, no exponent, the mode's energy, no limits,
- * radius at every pixel. */
+/* Best, FILTER_TOLERANCE_NORMAL; exact weights, Phong formula, round window, no exponent, 0.99 of the energy, no limits, radius
+ * at every pixel. */
 struct filter_options filter_options_default(void);
 
 /* A gbuffer, and what is built of it for filter_apply() whatever the exponents. */

@@ -31,7 +31,6 @@ struct filter {
     filter_see *see;
     const struct sight_kernel *sight;
     struct filter_taps taps;
-    double energy;
     double floor; /* of the best filter's weights */
     double radius_limit_px;
     struct image radius, confidence;

@@ -250,9 +250,9 @@ static enum sight_kind pack(uint8_t map[SIGHT_TILE_AREA], uint8_t levels[SIGHT_P
     return most > 0 ? SIGHT_MIXED : SIGHT_ALL_SEEN;
 }
 
-/* Where a node lies from lane l, in units of r': along the direction, and off it. */
+/* Where a node lies from lane l, in units of r': along the direction, and across it. */
 struct place {
-    float c, qq, x, y, z;
+    float c, x, y;
 };
 
 ALWAYS_INLINE struct place place_of(const struct filter_node *node, const struct filter_lanes *lanes, int l)
@@ -260,8 +260,10 @@ ALWAYS_INLINE struct place place_of(const struct filter_node *node, const struct
     float vx = node->x - node->w * lanes->a[0][l], vy = node->y - node->w * lanes->a[1][l];
     float vz = node->z - node->w * lanes->a[2][l];
     float dx = lanes->direction[0][l], dy = lanes->direction[1][l], dz = lanes->direction[2][l];
-    float c = vx * dx + vy * dy + vz * dz, qx = vx - c * dx, qy = vy - c * dy, qz = vz - c * dz;
-    return (struct place){.c = c, .qq = qx * qx + qy * qy + qz * qz, .x = qx, .y = qy, .z = qz};
+    return (struct place){
+        .c = vx * dx + vy * dy + vz * dz,
+        .x = vx * lanes->across[0][0][l] + vy * lanes->across[0][1][l] + vz * lanes->across[0][2][l],
+        .y = vx * lanes->across[1][0][l] + vy * lanes->across[1][1][l] + vz * lanes->across[1][2][l]};
 }
 
 /* What the node's solid angle from its own a's is to be multiplied with for another a. */
@@ -283,7 +285,7 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
             lost[l] += group->share[s][l] * hidden[s];
     for (int l = 0; l < LANES; l++) {
         const struct place place = place_of(node, lanes, l);
-        float c = place.c, qq = place.qq, square = c * c + qq, t = qq / (c * c);
+        float c = place.c, qq = place.x * place.x + place.y * place.y, square = c * c + qq, t = qq / (c * c);
         t = t < 0x1p100f ? t : 0x1p100f;
         t = c > 0.0f ? t : 0x1p100f;
         float f = power_to_weight(-lanes->slope[l] * log2_of_1_plus(t)) - lanes->floor;
@@ -296,10 +298,8 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
         share -= lost[l];
         weight[l] = f * (share > 0.0f ? share : 0.0f);
         float scale = c / (square + FLT_MIN);
-        u[l] = scale * (place.x * lanes->across[0][0][l] + place.y * lanes->across[0][1][l] +
-                        place.z * lanes->across[0][2][l]);
-        v[l] = scale * (place.x * lanes->across[1][0][l] + place.y * lanes->across[1][1][l] +
-                        place.z * lanes->across[1][2][l]);
+        u[l] = scale * place.x;
+        v[l] = scale * place.y;
     }
     const float solid = node->solid, square = node->square;
     const float unsteady = clamp_share(group->turn + group->move * node->w - 1), unlike = node->unlike * solid;
@@ -364,13 +364,13 @@ ALWAYS_INLINE void pool_node(const struct filter_node *node, const struct filter
     const struct filter_lanes *lanes = &group->lanes;
     for (int l = 0; l < LANES; l++) {
         const struct place place = place_of(node, lanes, l);
-        float c = place.c, t = place.qq / (c * c);
+        float c = place.c, qq = place.x * place.x + place.y * place.y, t = qq / (c * c);
         t = t < 0x1p100f ? t : 0x1p100f;
         float f = power_to_weight(-lanes->slope[l] * log2_of_1_plus(t));
         float dx = node->column - group->column[l], dy = node->row - group->row[l];
         f = c > 0.0f ? f : 0.0f;
         f = dx * dx + dy * dy <= lanes->limit[l] ? f : 0.0f;
-        f *= node->solid * enlarged(node, c * c + place.qq);
+        f *= node->solid * enlarged(node, c * c + qq);
         sums[0][l] += f * node->radiance[0];
         sums[1][l] += f * node->radiance[1];
         sums[2][l] += f * node->radiance[2];

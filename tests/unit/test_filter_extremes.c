@@ -67,7 +67,7 @@ static void extremes__angle_from_0_to_180_degrees__weighs_by_the_power(void **st
     (void)state;
     static const double angles[] = {0, 1e-6, 1e-3, 1, 10, 45, 89.99, 90, 90.01, 135, 180};
     static const double exponents[] = {0, 1e-6, 0.5, 1, 10, 1e4, 1e8, 1e20, INFINITY};
-    const double floor_weight = 0.001; /* of the best filter */
+    const double floor_weight = 0.01; /* of the best filter */
     for (int turn = 0; turn < 2; turn++) /* the endpoint above the surface, and behind it: only the angle counts */
         for (int m = 0; m < MODES; m++)
             for (size_t i = 0; i < sizeof angles / sizeof *angles; i++)
