@@ -334,10 +334,10 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
         float f = power_to_weight(-lanes->slope[l] * (narrow ? narrow_log2_of_1_plus(t) : log2_of_1_plus(t)));
         f -= lanes->floor;
         f = f > 0.0f ? f : 0.0f;
-        f *= 1.0f - before[l];
+        float hidden = hidden_share(lanes, l, area[l] > 0.0f ? t : far, before[l]);
+        f *= 1.0f - hidden;
         f = t <= reach ? f : 0.0f;
         f *= solid_angle(area[l], nearest[l], c, qq);
-        float hidden = hidden_share(lanes, l, area[l] > 0.0f ? t : far, before[l]);
         largest[l] = hidden;
         least[l] = hidden < least[l] ? hidden : least[l];
         float place = c / (c * c + qq + FLT_MIN);

@@ -54,21 +54,22 @@ static void own_tile(const struct sight_tile *tile, const struct sight_taps *tap
 {
     _Alignas(64) float far[LANES], along[LANES], unused[LANES];
     _Alignas(16) uint8_t cells[LANES];
+    _Alignas(64) uint32_t wide[LANES]; /* the share of a cell four times, for a row of its taps */
     for (int l = 0; l < LANES; l++) {
         const float right = (float)(dx + l % 4 * 4) + 1.5f, down = (float)(dy + l / 4 * 4) + 1.5f;
         far[l] = eye->step * (right * right + down * down);
     }
     own_lanes(tile->cells[0], tile->cells[1], tile->cells[2], tile->cells[3], tile->cells[4], far, eye, along, cells);
+    for (int l = 0; l < LANES; l++)
+        wide[l] = cells[l] * 0x01010101u;
     for (int row = 0; row < 4; row++) {
         uint8_t *out = own + row * 4 * SIGHT_TILE;
         float least = INFINITY;
         for (int j = 0; j < 4; j++)
             least = fabsf(along[4 * row + j]) < least ? fabsf(along[4 * row + j]) : least;
         if (tile->off[row] * eye->steepest <= 0.03f * least) {
-            for (int j = 0; j < 4; j++)
-                memset(out + 4 * j, cells[4 * row + j], 4);
-            for (int r = 1; r < 4; r++)
-                memcpy(out + r * SIGHT_TILE, out, SIGHT_TILE);
+            for (int r = 0; r < 4; r++)
+                memcpy(out + r * SIGHT_TILE, wide + 4 * row, SIGHT_TILE);
             continue;
         }
         for (int r = 4 * row; r < 4 * row + 4; r++) {
@@ -350,8 +351,7 @@ static void see(const struct filter_node *nodes, const float *hidden, int count,
     for (int first = 0; first < count; first += CHUNK) {
         _Alignas(64) float partial[FILTER_MOMENTS][LANES] = {{0}};
         for (int i = first; i < first + CHUNK && i < count; i++)
-            if (nodes[i].visible)
-                see_node(&nodes[i], hidden + (size_t)i * SIGHTS_OF_GROUP, group, partial, sums);
+            see_node(&nodes[i], hidden + (size_t)i * SIGHTS_OF_GROUP, group, partial, sums);
         for (int i = 0; i < FILTER_MOMENTS; i++)
             for (int l = 0; l < LANES; l++)
                 sums->value[i][l] += (double)partial[i][l];

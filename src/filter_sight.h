@@ -87,7 +87,6 @@ struct filter_node {
     float radiance[3];   /* mean of L0, R, G, B, and of (R + G + B)^2, by the solid angle */
     float square;
     float column, row;   /* middle, pixels */
-    bool visible;        /* from any of the group's sights */
     float unlike;        /* by how much of it the group's sights differ */
 };
 
