@@ -32,7 +32,9 @@ enum {
     LARGEST = SIDE << (BLOCK_LEVELS - 1),
     REACH = 3 << (BLOCK_LEVELS - 1), /* pixels: interpolation comes from no farther, 3 (8 + 4 + 2 + 1) */
     SIGHTS = 100,                    /* that are kept, while their memory allows: */
-    LEAST_PIXELS = 1 << 14 /* of a picture: the exact sums of a smaller one are as fast */
+    /* Of a picture, and of the radius: the exact sums of smaller ones are as fast. */
+    LEAST_PIXELS = 1 << 14,
+    LEAST_RADIUS = 32
 };
 
 static const double sights_bytes = 0x1p27;
@@ -40,10 +42,12 @@ static const double sights_bytes = 0x1p27;
 /* Lobes above this exponent are narrower than what floats in units of r' tell apart. */
 static const float phong_most = 1e5f;
 
-/* Of tan^2(theta) where the lobe ends, over the square of the angle from a pixel to the next; of lobes wider than
- * narrow_reach, tan^2(theta), in proportion fewer: near things are then many pixels from where far ones are. The second
- * where most pixels need sights of their own. */
-static const float few_pixels = 300, curved_pixels = 600, rough_pixels = 12000, narrow_reach = 0.01f;
+/* Of 16 x 16 pixels that are summed exactly: how many they may look at, over pi: of the lobe and, in part, of the pool.
+ * Where the mirror turns too much for blocks; where most need sights of their own; and elsewhere. */
+static const float curved_pixels = 600, rough_pixels = 12000, few_pixels = 300, pool_part = 0.43f;
+
+/* Lobes wider than this, tan^2(theta), hold more pixels than those of far things. */
+static const float narrow_reach = 0.01f;
 
 /* Units: of the lobe's width, 1/sqrt(p) radians, at most 1. */
 struct settings {
@@ -60,11 +64,11 @@ struct settings {
 static struct settings settings_of(double tolerance)
 {
     const double e = tolerance / FILTER_TOLERANCE_NORMAL;
-    return (struct settings){.smooth = (float)(4 * pow(e, 1.6)),
+    return (struct settings){.smooth = (float)(6 * pow(e, 1.6)),
                              .unsteady = (float)(0.01 * pow(e, 2)),
-                             .bend = (float)(0.05 * pow(e, 2.3)),
+                             .bend = (float)(0.1 * pow(e, 2.3)),
                              .unlike = (float)fmin(0.3 * pow(e, 2.6), 1),
-                             .spread = (float)(1 * pow(e, 1.4)),
+                             .spread = (float)pow(e, 1.4),
                              .size = (float)(pow(e, 1.3) / 3),
                              .hidden = (float)(0.03 * pow(e, 4))};
 }
@@ -77,7 +81,7 @@ static const double lent_most = 8, between_most = 0.25;
 static const float corners_least = 0.5f;
 
 /* How far the direction may turn over a block, of how far things may shift: a turn shifts them all. */
-static const float turn_most = 0.75f;
+static const float turn_most = 0.5f;
 
 /* The largest of what changes from a pixel to the next, within a block. */
 struct rate {
@@ -127,8 +131,9 @@ bool filter_fast_applies(const struct filter *filter)
 {
     const struct filter_options *options = filter->options;
     const long pixels = (long)filter->taps.width * filter->taps.height;
-    return options->mode == FILTER_MODE_BEST && options->tolerance > 0 && options->max_radius_px == 0 &&
-           (pixels >= LEAST_PIXELS || options->tolerance >= FILTER_TOLERANCE_DRAFT);
+    const bool small = pixels < LEAST_PIXELS || filter->radius_limit_px < LEAST_RADIUS;
+    return options->mode == FILTER_MODE_BEST && options->tolerance > 0 &&
+           (!small || options->tolerance >= FILTER_TOLERANCE_DRAFT);
 }
 
 static size_t pixel_of(const struct fast *fast, int x, int y)
@@ -380,10 +385,12 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
                                      .right = x + (SIDE - 1) * apart,
                                      .bottom = y + (SIDE - 1) * apart,
                                      .finest = apart > 2 ? apart / 2 : 1,
+                                     .limit_px = (int)filter->radius_limit_px,
                                      .lanes = &block->lattice.group.lanes,
                                      .size = fast->settings.size,
                                      .hidden = fast->settings.hidden}};
     block->lattice.group.lanes = block->between.group.lanes = filter_lanes_empty(x, y);
+    block->lattice.group.limit = block->between.group.limit = (float)block->walk.limit_px * (float)block->walk.limit_px;
     for (int l = 0; l < LANES; l++) {
         const int u = x + l % SIDE * apart, v = y + l / SIDE * apart;
         if (!pixel_add(fast, block, &block->lattice, l, u, v))
@@ -556,6 +563,7 @@ static bool is_exact(const struct fast *fast, const struct rate *rate, int x, in
 {
     const struct filter *filter = fast->filter;
     struct filter_lanes lanes = filter_lanes_empty(x, y);
+    const float limit = (float)filter->radius_limit_px;
     float most = 0;
     int used = 0, lent = 0;
     for (int l = 0; l < LANES; l++) {
@@ -564,11 +572,14 @@ static bool is_exact(const struct fast *fast, const struct rate *rate, int x, in
             !filter_lane_fill(filter, u, v, l, &lanes))
             continue;
         const float rho = image_row(&filter->radius, 0, v)[u];
-        most = fmaxf(most, lanes.reach[l] / lanes.step[l] * fmaxf(lanes.reach[l] / narrow_reach, 1) + 0.43f * rho * rho);
+        const float lobe = lanes.reach[l] / lanes.step[l] * fmaxf(lanes.reach[l] / narrow_reach, 1);
+        most = fmaxf(most, fminf(lobe, limit * limit) + pool_part * rho * rho);
         used++;
         lent += is_alike(filter, u, v, u + 1, v, lent_most) && is_alike(filter, u, v, u, v + 1, lent_most);
     }
-    return rate->phong_high > phong_most || (used > 0 && most < (4 * lent < 3 * used ? rough_pixels : rate->turn * shift_scale(fast, rate, 1) > turn_most ? curved_pixels : few_pixels));
+    const bool rough = 4 * lent < 3 * used, curved = rate->turn * shift_scale(fast, rate, 1) > turn_most;
+    return rate->phong_high > phong_most ||
+           (used > 0 && most < (rough ? rough_pixels : curved ? curved_pixels : few_pixels));
 }
 
 /* Every tap of 16 x 16 pixels' lobes. */

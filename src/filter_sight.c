@@ -279,6 +279,7 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
     const struct filter_lanes *lanes = &group->lanes;
     _Alignas(64) float lost[LANES], there[LANES], weight[LANES], u[LANES], v[LANES];
     const int sights = node->unlike > 0 ? group->sights : 0;
+    const float limit = group->limit;
     for (int l = 0; l < LANES; l++)
         lost[l] = sights > 0 ? 0.0f : hidden[0];
     for (int s = 0; s < sights; s++)
@@ -291,7 +292,9 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
         t = c > 0.0f ? t : 0x1p100f;
         float f = power_to_weight(-lanes->slope[l] * log2_of_1_plus(t)) - lanes->floor;
         f = f > 0.0f ? f : 0.0f;
+        float dx = node->column - group->column[l], dy = node->row - group->row[l];
         f = t <= lanes->reach[l] ? f : 0.0f;
+        f = dx * dx + dy * dy <= limit ? f : 0.0f;
         float share = (lanes->blind[l] - t) * lanes->fade[l];
         share = clamp_share(share);
         f *= enlarged(node, square);

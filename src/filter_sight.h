@@ -95,6 +95,7 @@ struct filter_node {
 struct filter_group {
     struct filter_lanes lanes;
     float column[FILTER_LANES], row[FILTER_LANES];
+    float limit; /* farthest node that is seen, from its middle, pixels^2 */
     int sights;
     float share[SIGHTS_OF_GROUP][FILTER_LANES];
     float turn, move; /* how far the direction and a shift over the group, of how far things may */

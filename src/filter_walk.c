@@ -12,6 +12,9 @@ static const float range_least = 0.05f;
 /* How many times larger a cell that no sight sees may be. */
 static const float unseen_size = 3;
 
+/* A cell that isn't larger than this share of how far is seen is in or out as its middle is. */
+static const double limit_share = 1 / 16.;
+
 struct walker {
     const struct filter *filter;
     const struct filter_cells *cells;
@@ -175,6 +178,16 @@ static const struct filter_cell *cell_at(const struct filter_cells *cells, int k
     return &cells->level[k][(size_t)y * (size_t)cells->width[k] + (size_t)x];
 }
 
+/* Whether some of cell (x, y) of level k is as far from some of the block as is seen, or farther, and the cell isn't
+ * small for that. */
+static bool is_at_limit(const struct filter_walk *walk, int k, int x, int y)
+{
+    const int size = 1 << k, left = x << k, top = y << k;
+    const double off_x = fmax(left + size - 1 - walk->left, walk->right - left);
+    const double off_y = fmax(top + size - 1 - walk->top, walk->bottom - top);
+    return size > limit_share * (double)walk->limit_px && hypot(off_x, off_y) > walk->limit_px;
+}
+
 /* Adds the nodes of a cell of level k, or of its parts; and what isn't seen, or isn't in the lobe, to the rest. */
 static void cell_walk(struct walker *walker, int k, int x, int y, const struct look *whole)
 {
@@ -196,9 +209,11 @@ static void cell_walk(struct walker *walker, int k, int x, int y, const struct l
         return;
     }
     const struct filter_cell *cell = cell_at(cells, k, x, y);
-    const bool large = 1 << k > walk->finest && (float)(1 << k) > (float)away_of(walk, k, x, y) * walk->size;
-    if (cell->pixels == 0)
+    const int away = away_of(walk, k, x, y);
+    if (cell->pixels == 0 || away > walk->limit_px)
         return;
+    const bool large = 1 << k > walk->finest &&
+                       ((float)(1 << k) > (float)away * walk->size || is_at_limit(walk, k, x, y));
     if (large || is_mixed(walk, cell, &look, &weight)) {
         for (int v = 2 * y; v < 2 * y + 2 && v < cells->height[k - 1]; v++)
             for (int u = 2 * x; u < 2 * x + 2 && u < cells->width[k - 1]; u++)

@@ -26,6 +26,7 @@ struct filter_walk {
     int left, top, right, bottom;     /* of the block, pixels, inclusive */
     int finest;                       /* cells of so many pixels are always used whole */
     int reach_px;                     /* of the pool, from the block */
+    int limit_px;                     /* nothing farther from a pixel is seen */
     const struct filter_lanes *lanes; /* of the block's pixels */
     int middle;                       /* a lane in the middle */
     float lobe;                       /* its integral, steradians */
