@@ -49,8 +49,8 @@ struct filter_options {
     enum cpu_isa isa;     /* the result is the same to the last bit */
 };
 
-/* Best, FILTER_TOLERANCE_NORMAL; exact weights, Phong formula, round window, no exponent, 0.99 of the energy, no limits, radius
- * at every pixel. */
+/* Best, FILTER_TOLERANCE_NORMAL; exact weights, Phong formula, round window, no exponent, 0.99 of the energy, no
+ * limits, radius at every pixel. */
 struct filter_options filter_options_default(void);
 
 /* A gbuffer, and what is built of it for filter_apply() whatever the exponents. */
@@ -86,7 +86,8 @@ const struct gbuffer *filter_gbuffer(const struct filter *filter);
  * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of
  *   the lobe, and (4 / (n + 4))^2.
  * With rays in the gbuffer the result is then corrected by them: see control_variate.h.
- * Confidence, 0 to 1: the sum of f over the lobe's integral, the share of the lobe that what is seen covers.
+ * Confidence, 0 to 1: the sum of f over what it is where nothing is hidden, the share of the lobe that what is seen
+ * covers.
  *
  * Glossy is a pixel whose exponent is above 0 (with no phong plane: whatever the options say, 0 included), whose
  * position, endpoint and specular are finite, whose endpoint is not all zero and has W >= 0. Only glossy pixels are

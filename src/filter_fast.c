@@ -64,7 +64,7 @@ struct settings {
 static struct settings settings_of(double tolerance)
 {
     const double e = tolerance / FILTER_TOLERANCE_NORMAL;
-    return (struct settings){.smooth = (float)(6 * pow(e, 1.6)),
+    return (struct settings){.smooth = (float)(4 * pow(e, 1.6)),
                              .unsteady = (float)(0.01 * pow(e, 2)),
                              .bend = (float)(0.1 * pow(e, 2.3)),
                              .unlike = (float)fmin(0.3 * pow(e, 2.6), 1),
@@ -81,7 +81,7 @@ static const double lent_most = 8, between_most = 0.25;
 static const float corners_least = 0.5f;
 
 /* How far the direction may turn over a block, of how far things may shift: a turn shifts them all. */
-static const float turn_most = 0.5f;
+static const float turn_most = 0.75f;
 
 /* The largest of what changes from a pixel to the next, within a block. */
 struct rate {
@@ -131,9 +131,8 @@ bool filter_fast_applies(const struct filter *filter)
 {
     const struct filter_options *options = filter->options;
     const long pixels = (long)filter->taps.width * filter->taps.height;
-    const bool small = pixels < LEAST_PIXELS || filter->radius_limit_px < LEAST_RADIUS;
-    return options->mode == FILTER_MODE_BEST && options->tolerance > 0 &&
-           (!small || options->tolerance >= FILTER_TOLERANCE_DRAFT);
+    return options->mode == FILTER_MODE_BEST && options->tolerance > 0 && filter->radius_limit_px >= LEAST_RADIUS &&
+           (pixels >= LEAST_PIXELS || options->tolerance >= FILTER_TOLERANCE_DRAFT);
 }
 
 static size_t pixel_of(const struct fast *fast, int x, int y)

@@ -32,6 +32,7 @@ struct filter {
     const struct sight_kernel *sight;
     struct filter_taps taps;
     double floor; /* of the best filter's weights */
+    double whole; /* the share of a lobe's integral that is seen of it where nothing hides any */
     double radius_limit_px;
     struct image radius, confidence;
     struct image *glossy;
