@@ -325,8 +325,8 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
     _Alignas(64) float largest[FILTER_LANES]; /* nothing else can lie here: no check stands before the vectors */
     for (int l = 0; l < FILTER_LANES; l++) {
         const struct offset e = tap_offset(taps, lanes, tap, l, mixed);
-        float c = offset_along(e, lanes, l) + e.own, x = offset_across(e, lanes, 0, l), y = offset_across(e, lanes, 1, l);
-        float qq = x * x + y * y, reach = lanes->reach[l];
+        float x = offset_across(e, lanes, 0, l), y = offset_across(e, lanes, 1, l);
+        float c = offset_along(e, lanes, l) + e.own, qq = x * x + y * y, reach = lanes->reach[l];
         float far = lanes->step[l] * separation;
         float t = qq / (c * c);
         t = t < 0x1p100f ? t : 0x1p100f; /* also NaN */
