@@ -529,6 +529,7 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
         return k == 0;
     if (k > 0 && rate->border && !between_fill(fast, 1 << k, &block))
         return false;
+    block.walk.turn = rate->turn * (float)(SIDE << k) / 2;
     lattice->group.turn = rate->turn * shift_scale(fast, rate, k);
     lattice->group.move = rate->move * shift_scale(fast, rate, k);
     if (!block_see(worker, &block, k, own, &seen))

@@ -81,7 +81,8 @@ static struct view view_of(const struct filter_walk *walk, const struct filter_c
     }
     const float spread = filter_node_spread(layer, cell->a, a), off = 2 * spread, distance = sqrtf(square);
     const float nearest = distance > off ? distance - off : 0, aside_square = square - c * c;
-    const float aside = aside_square > off * off ? sqrtf(aside_square) - off : 0;
+    const float beside = off + walk->turn * distance;
+    const float aside = aside_square > beside * beside ? sqrtf(aside_square) - beside : 0;
     struct view view = {.spread = spread / (distance + FLT_MIN)};
     const float t = aside / (c + off) * aside / (c + off);
     if (c + off > 0 && t <= lanes->reach[l] * margin)

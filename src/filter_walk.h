@@ -29,6 +29,7 @@ struct filter_walk {
     int limit_px;                     /* nothing farther from a pixel is seen */
     const struct filter_lanes *lanes; /* of the block's pixels */
     int middle;                       /* a lane in the middle */
+    float turn;                       /* of the pixels' directions from the middle one, radians */
     float lobe;                       /* its integral, steradians */
     float size;                       /* of a cell, of its distance in pixels */
     float spread;                     /* of a cell's directions, radians */
