@@ -24,7 +24,7 @@ ALL, TRADE = (30, 100, 300, 1000, 10000), (100, 1000)
 RAYS, BRUTE, NORMALS = (1, 4, 16), (4, 16, 64), (4, 16, 64)
 QUALITIES = ('--quality exact', '--quality high', 'best', '--quality draft')
 SETTINGS = ('--no-means', '--margin 10%', '--subsample 2', '--subsample 4', '--max-radius 64', '--max-radius 32',
-            '--max-radius 16', '--energy 0.99', '--mode paper --weights table', '--mode paper --weights gauss',
+            '--max-radius 16', '--energy 0.999', '--mode paper --weights table', '--mode paper --weights gauss',
             '--mode paper --window square', '--mode paper --radius-step 4')
 WHOLE = 256  # rays of the lobe at every pixel of the image that FLIP compares with, at p = TRADE[0]
 EXAMPLES = '/usr/share/doc/povray/examples/advanced/'

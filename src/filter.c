@@ -37,7 +37,7 @@ static const double blind_ratio = 1.21, fade_share = 0.7;
 static const double least_pixels = 0.125;
 
 /* See help_of_pixel(); so little that it isn't worth its time is taken off. */
-static const double pool_pixels = 4, pool_share_least = 1.0 / 1024, missing_share = 0.5, missing_least = 0.02;
+static const double pool_pixels = 4, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.07;
 
 /* Of fit_plane() and evenness(). */
 static const double ridge = 0.3, even_contrast = 3;
@@ -50,6 +50,7 @@ struct filter_options filter_options_default(void)
         .window = FILTER_WINDOW_ROUND,
         .tolerance = FILTER_TOLERANCE_NORMAL,
         .phong = NAN,
+        .energy = 0.99,
         .max_angle_rad = 1.57079632679489662,
         .radius_step = 1,
     };
@@ -297,7 +298,7 @@ static double radius_at(const struct filter *filter, int x, int y)
     double phong = filter_exponent_at(filter, x, y), radius;
     if (phong >= mirror_phong)
         return 0;
-    double half_angle = lobe_half_angle(phong, filter->energy, filter->options->max_angle_rad);
+    double half_angle = lobe_half_angle(phong, filter->options->energy, filter->options->max_angle_rad);
     if (gbuffer->has_eye && gbuffer->view_angle > 0) {
         struct sample sample;
         double s = 0, r = 0;
@@ -519,6 +520,18 @@ static void blur_paper(void *context, int first, int end)
         }
 }
 
+/* The share of a lobe that is seen where nothing hides any: of the integral of e^-x - floor over x = p tan^2(theta) / 2
+ * up to X, where it ends, that with what fades out from (1 - fade_share) blind_ratio X to blind_ratio X. */
+static double whole_share(double floor)
+{
+    const double end = -log(floor), blind = blind_ratio * end, width = fade_share * blind;
+    const double start = fmin(blind - width, end);
+    const double rise = exp(-start) * (start - blind + 1), last = floor * (end - blind + 1);
+    const double bright = 1 - exp(-start) - floor * start;
+    const double fading = (last - rise - floor * (blind * (end - start) - (end * end - start * start) / 2)) / width;
+    return (bright + fading) / (1 - floor * (1 + end));
+}
+
 /* Square of the least angle by which the mirror direction turns from a pixel to a neighbour: the farther away things
  * are, the nearer the angle between their endpoints comes to it. With a margin, for it changes over the picture. */
 static double gradient_least(const struct filter *filter, int x, int y)
@@ -556,7 +569,7 @@ static double lobe_reach(const struct filter *filter, double phong)
 static struct filter_help help_of_pixel(const struct filter *filter, int x, int y, double seen)
 {
     const double few = pool_pixels / (pixels_in_lobe(filter, x, y) + pool_pixels);
-    const double lobe = lobe_integral(lobe_exponent(filter, x, y), filter->floor);
+    const double lobe = filter->whole * lobe_integral(lobe_exponent(filter, x, y), filter->floor);
     if (filter->options->without & FILTER_WITHOUT_POOL || image_row(&filter->radius, 0, y)[x] < 1)
         return (struct filter_help){0};
     return (struct filter_help){.share = fmax(few * few - pool_share_least, 0),
@@ -656,7 +669,7 @@ static void pixel_write_best(struct filter *filter, int x, int y, int l, const s
     if (help.missing > 0 && pool->value[3][l] > 0)
         share += help.missing / pool->value[3][l];
     double phong = lobe_exponent(filter, x, y), weight = seen->value[FILTER_MOMENT_1][l];
-    double confidence = fmin(weight / lobe_integral(phong, filter->floor), 1);
+    double confidence = fmin(weight / (filter->whole * lobe_integral(phong, filter->floor)), 1);
     const bool fit = weight > 0 && !(filter->options->without & FILTER_WITHOUT_FIT);
     const double even = evenness(seen, l);
     for (int i = 0; i < 3; i++)
@@ -773,7 +786,7 @@ static enum result check_plane(const struct image *image, const char *name, int 
 
 static enum result check(const struct gbuffer *gbuffer, const struct filter_options *options, struct error *err)
 {
-    assert(options->energy >= 0 && options->energy < 1 && options->max_angle_rad > 0 && options->max_radius_px >= 0);
+    assert(options->energy > 0 && options->energy < 1 && options->max_angle_rad > 0 && options->max_radius_px >= 0);
     assert(options->radius_step > 0 && options->threads >= 0 && !(options->phong < 0));
     const struct image *size = &gbuffer->specular;
     enum result result = check_plane(size, "specular", 3, size, err);
@@ -877,8 +890,8 @@ static enum result call_begin(struct filter *filter, const struct filter_options
     filter->kernel = kernels[isa];
     filter->see = sees[isa];
     filter->sight = sights[isa];
-    filter->energy = options->energy > 0 ? options->energy : 0.99;
-    filter->floor = options->energy > 0 ? 1 - options->energy : 0.001;
+    filter->floor = 1 - options->energy;
+    filter->whole = options->without & FILTER_WITHOUT_VISIBILITY ? 1 : whole_share(filter->floor);
     filter->radius_limit_px = hypot(width, height);
     if (options->max_radius_px > 0)
         filter->radius_limit_px = fmin(filter->radius_limit_px, options->max_radius_px);

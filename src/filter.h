@@ -11,8 +11,8 @@
 /* Tolerances of the best filter: 0, the sums as they are written below; else far pixels are taken together, and some
  * pixels computed and the others interpolated (filter_fast.c), so that on three scenes, at exponents of 30, 300 and
  * 3000, the RMSE of the picture against the exact one, linear, is no larger; see docs/performance.md. Exact in any case
- * are pictures of fewer than 16384 pixels, but for a draft, and all with a max_radius_px. Only exact results of flipped
- * passes are the flipped results. */
+ * are pictures of fewer than 16384 pixels, but for a draft, and all with a max_radius_px below 32. Only exact results of
+ * flipped passes are the flipped results. */
 #define FILTER_TOLERANCE_LEAST 0.0007
 #define FILTER_TOLERANCE_HIGH 0.001
 #define FILTER_TOLERANCE_NORMAL 0.0015
@@ -41,7 +41,7 @@ struct filter_options {
     unsigned without;     /* the best's alone: set of enum filter_without */
     float phong;          /* exponent where the gbuffer has none: 0 to infinity; NaN: none is known */
     bool phong_override;  /* phong takes the place of the gbuffer's exponents, too; not glossy stays not glossy */
-    double energy;        /* share of the lobe's energy within Theta, (0, 1); 0: 0.99 (paper), 0.999 (best) */
+    double energy;        /* share of the lobe's energy within Theta, (0, 1) */
     double max_angle_rad; /* upper limit of Theta, (0, pi/2] */
     int max_radius_px;    /* upper limit of the radius; 0: none but the picture's diagonal */
     int radius_step;      /* 1, 2, 4 or 8: the radius is computed at every so-many-th pixel and interpolated */
@@ -49,8 +49,8 @@ struct filter_options {
     enum cpu_isa isa;     /* the result is the same to the last bit */
 };
 
-/* Best, FILTER_TOLERANCE_NORMAL; exact weights, Phong formula, round window, no exponent, the mode's energy, no limits,
- * radius at every pixel. */
+/* Best, FILTER_TOLERANCE_NORMAL; exact weights, Phong formula, round window, no exponent, 0.99 of the energy, no
+ * limits, radius at every pixel. */
 struct filter_options filter_options_default(void);
 
 /* A gbuffer, and what is built of it for filter_apply() whatever the exponents. */
@@ -86,7 +86,8 @@ const struct gbuffer *filter_gbuffer(const struct filter *filter);
  * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of
  *   the lobe, and (4 / (n + 4))^2.
  * With rays in the gbuffer the result is then corrected by them: see control_variate.h.
- * Confidence, 0 to 1: the sum of f over the lobe's integral, the share of the lobe that what is seen covers.
+ * Confidence, 0 to 1: the sum of f over what it is where nothing is hidden, the share of the lobe that what is seen
+ * covers.
  *
  * Glossy is a pixel whose exponent is above 0 (with no phong plane: whatever the options say, 0 included), whose
  * position, endpoint and specular are finite, whose endpoint is not all zero and has W >= 0. Only glossy pixels are

@@ -134,7 +134,7 @@ static struct filter_cell cell_of(const struct children *children)
     if (children->count == 0)
         return cell;
     const float nearest = children->nearest, farthest = children->farthest;
-    const float threshold = nearest - farthest > one_layer * nearest ? (nearest + farthest) / 2 : -1;
+    const float threshold = nearest - farthest > one_layer * nearest ? sqrtf(nearest * farthest) : -1;
     for (int k = 0; k < 3; k++)
         cell.a[k] = (float)(children->places[k] / children->place_count);
     layer_of(children, cell.a, threshold, true, &cell.layer[0]);

@@ -32,7 +32,9 @@ enum {
     LARGEST = SIDE << (BLOCK_LEVELS - 1),
     REACH = 3 << (BLOCK_LEVELS - 1), /* pixels: interpolation comes from no farther, 3 (8 + 4 + 2 + 1) */
     SIGHTS = 100,                    /* that are kept, while their memory allows: */
-    LEAST_PIXELS = 1 << 14 /* of a picture: the exact sums of a smaller one are as fast */
+    /* Of a picture, and of the radius: the exact sums of smaller ones are as fast. */
+    LEAST_PIXELS = 1 << 14,
+    LEAST_RADIUS = 32
 };
 
 static const double sights_bytes = 0x1p27;
@@ -40,10 +42,12 @@ static const double sights_bytes = 0x1p27;
 /* Lobes above this exponent are narrower than what floats in units of r' tell apart. */
 static const float phong_most = 1e5f;
 
-/* Of tan^2(theta) where the lobe ends, over the square of the angle from a pixel to the next; of lobes wider than
- * narrow_reach, tan^2(theta), in proportion fewer: near things are then many pixels from where far ones are. The second
- * where most pixels need sights of their own. */
-static const float few_pixels = 300, rough_pixels = 12000, narrow_reach = 0.01f;
+/* Of 16 x 16 pixels that are summed exactly: how many they may look at, over pi: of the lobe and, in part, of the pool.
+ * Where the mirror turns too much for blocks; where most need sights of their own; and elsewhere. */
+static const float curved_pixels = 600, rough_pixels = 12000, few_pixels = 300, pool_part = 0.43f;
+
+/* Lobes wider than this, tan^2(theta), hold more pixels than those of far things. */
+static const float narrow_reach = 0.01f;
 
 /* Units: of the lobe's width, 1/sqrt(p) radians, at most 1. */
 struct settings {
@@ -62,16 +66,16 @@ static struct settings settings_of(double tolerance)
     const double e = tolerance / FILTER_TOLERANCE_NORMAL;
     return (struct settings){.smooth = (float)(4 * pow(e, 1.6)),
                              .unsteady = (float)(0.01 * pow(e, 2)),
-                             .bend = (float)(0.05 * pow(e, 2.3)),
+                             .bend = (float)(0.1 * pow(e, 2.3)),
                              .unlike = (float)fmin(0.3 * pow(e, 2.6), 1),
-                             .spread = (float)(0.5 * pow(e, 1.4)),
+                             .spread = (float)pow(e, 1.4),
                              .size = (float)(pow(e, 1.3) / 3),
                              .hidden = (float)(0.03 * pow(e, 4))};
 }
 
 /* A sight isn't lent to a pixel from which what it sees is shifted by more, nor is a pixel at the border of a mirror
  * interpolated from such: what is there is something else. */
-static const double lent_most = 4, between_most = 0.25;
+static const double lent_most = 8, between_most = 0.25;
 
 /* By how much of its weights in the block the corners must be alike to a pixel that has no sight of its own. */
 static const float corners_least = 0.5f;
@@ -127,7 +131,7 @@ bool filter_fast_applies(const struct filter *filter)
 {
     const struct filter_options *options = filter->options;
     const long pixels = (long)filter->taps.width * filter->taps.height;
-    return options->mode == FILTER_MODE_BEST && options->tolerance > 0 && options->max_radius_px == 0 &&
+    return options->mode == FILTER_MODE_BEST && options->tolerance > 0 && filter->radius_limit_px >= LEAST_RADIUS &&
            (pixels >= LEAST_PIXELS || options->tolerance >= FILTER_TOLERANCE_DRAFT);
 }
 
@@ -380,10 +384,12 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
                                      .right = x + (SIDE - 1) * apart,
                                      .bottom = y + (SIDE - 1) * apart,
                                      .finest = apart > 2 ? apart / 2 : 1,
+                                     .limit_px = (int)filter->radius_limit_px,
                                      .lanes = &block->lattice.group.lanes,
                                      .size = fast->settings.size,
                                      .hidden = fast->settings.hidden}};
     block->lattice.group.lanes = block->between.group.lanes = filter_lanes_empty(x, y);
+    block->lattice.group.limit = block->between.group.limit = (float)block->walk.limit_px * (float)block->walk.limit_px;
     for (int l = 0; l < LANES; l++) {
         const int u = x + l % SIDE * apart, v = y + l / SIDE * apart;
         if (!pixel_add(fast, block, &block->lattice, l, u, v))
@@ -447,7 +453,7 @@ static void pixels_see(struct worker *worker, struct pixels *pixels, struct filt
 {
     const struct filter_nodes *nodes = &worker->nodes;
     if (!worker->out_of_memory)
-        worker->fast->filter->sight->see(nodes->nodes, nodes->hidden, nodes->count, &pixels->group, seen);
+        worker->fast->filter->sight->see(nodes->nodes, nodes->hidden, nodes->seen, &pixels->group, seen);
 }
 
 /* What the pixels of the lattice see, from the block's corners or by their own sight, and of which nodes. False: to a
@@ -466,14 +472,20 @@ static bool block_see(struct worker *worker, struct block *block, int k, const b
     return true;
 }
 
-static void pixels_write(struct worker *worker, struct pixels *pixels, const struct filter_moments *seen)
+static void pixels_write(struct worker *worker, const struct filter_walk *walk, struct pixels *pixels,
+                         const struct filter_moments *seen)
 {
     struct fast *fast = worker->fast;
     struct filter *filter = fast->filter;
+    struct filter_nodes *nodes = &worker->nodes;
     struct filter_sums pool = {0};
     struct filter_help help[LANES] = {{0}};
-    if (filter_help_needed(filter, &pixels->at, seen, &pixels->group.lanes, help))
-        filter->sight->pool(worker->nodes.nodes, worker->nodes.count, &pixels->group, &pool);
+    if (filter_help_needed(filter, &pixels->at, seen, &pixels->group.lanes, help)) {
+        filter_walk_rest(filter, &fast->cells, walk, nodes);
+        worker->out_of_memory = nodes->out_of_memory;
+        if (!worker->out_of_memory)
+            filter->sight->pool(nodes->nodes, nodes->count, &pixels->group, &pool);
+    }
     filter_write_best(filter, &pixels->at, seen, &pool, help);
     for (int l = 0; l < LANES; l++)
         if (pixels->at.used[l])
@@ -517,13 +529,14 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
         return k == 0;
     if (k > 0 && rate->border && !between_fill(fast, 1 << k, &block))
         return false;
+    block.walk.turn = rate->turn * (float)(SIDE << k) / 2;
     lattice->group.turn = rate->turn * shift_scale(fast, rate, k);
     lattice->group.move = rate->move * shift_scale(fast, rate, k);
     if (!block_see(worker, &block, k, own, &seen))
         return false;
     for (int l = 0; l < LANES; l++) {
-        own[l] = is_more(lattice, &seen, lattice->group.unlike, l, settings->unlike / 4);
-        any_own = any_own || is_more(lattice, &seen, lattice->group.unlike, l, settings->unlike);
+        own[l] = is_more(lattice, &seen, lattice->group.unlike, l, settings->unlike);
+        any_own = any_own || own[l];
         steady = steady && !is_more(lattice, &seen, lattice->group.unsteady, l, settings->unsteady);
     }
     if (k > 0 && any_own)
@@ -531,7 +544,7 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
     if (any_own)
         block_see(worker, &block, k, own, &seen);
     if (!worker->out_of_memory)
-        pixels_write(worker, lattice, &seen);
+        pixels_write(worker, &block.walk, lattice, &seen);
     if (k > 0 && !steady && !is_even(fast, lattice))
         return false;
     if (block.between_count > 0)
@@ -540,7 +553,7 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
         if (is_more(between, &seen_between, between->group.unlike, l, settings->unlike))
             return false;
     if (block.between_count > 0 && !worker->out_of_memory)
-        pixels_write(worker, between, &seen_between);
+        pixels_write(worker, &block.walk, between, &seen_between);
     return true;
 }
 
@@ -550,6 +563,7 @@ static bool is_exact(const struct fast *fast, const struct rate *rate, int x, in
 {
     const struct filter *filter = fast->filter;
     struct filter_lanes lanes = filter_lanes_empty(x, y);
+    const float limit = (float)filter->radius_limit_px;
     float most = 0;
     int used = 0, lent = 0;
     for (int l = 0; l < LANES; l++) {
@@ -557,11 +571,15 @@ static bool is_exact(const struct fast *fast, const struct rate *rate, int x, in
         if (!filter_is_inside(filter, u, v) || !filter_is_glossy(filter, u, v) ||
             !filter_lane_fill(filter, u, v, l, &lanes))
             continue;
-        most = fmaxf(most, lanes.reach[l] / lanes.step[l] * fmaxf(lanes.reach[l] / narrow_reach, 1));
+        const float rho = image_row(&filter->radius, 0, v)[u];
+        const float lobe = lanes.reach[l] / lanes.step[l] * fmaxf(lanes.reach[l] / narrow_reach, 1);
+        most = fmaxf(most, fminf(lobe, limit * limit) + pool_part * rho * rho);
         used++;
         lent += is_alike(filter, u, v, u + 1, v, lent_most) && is_alike(filter, u, v, u, v + 1, lent_most);
     }
-    return rate->phong_high > phong_most || (used > 0 && most < (4 * lent < 3 * used ? rough_pixels : few_pixels));
+    const bool rough = 4 * lent < 3 * used, curved = rate->turn * shift_scale(fast, rate, 1) > turn_most;
+    return rate->phong_high > phong_most ||
+           (used > 0 && most < (rough ? rough_pixels : curved ? curved_pixels : few_pixels));
 }
 
 /* Every tap of 16 x 16 pixels' lobes. */
@@ -616,8 +634,7 @@ static void rows_do(void *context, int first, int end)
             block_do(&worker, x, row * LARGEST, BLOCK_LEVELS - 1);
     for (int i = 0; i < SIGHTS; i++)
         sight_free(&worker.sights[i]);
-    free(worker.nodes.hidden);
-    free(worker.nodes.nodes);
+    filter_nodes_free(&worker.nodes);
     free(worker.exact);
     sight_scratch_free(&worker.scratch);
     if (worker.out_of_memory)

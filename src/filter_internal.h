@@ -31,8 +31,8 @@ struct filter {
     filter_see *see;
     const struct sight_kernel *sight;
     struct filter_taps taps;
-    double energy;
     double floor; /* of the best filter's weights */
+    double whole; /* the share of a lobe's integral that is seen of it where nothing hides any */
     double radius_limit_px;
     struct image radius, confidence;
     struct image *glossy;

@@ -29,21 +29,20 @@ enum path {
     PATH_GAUSS
 };
 
-/* c and q of a tap, and q.q. */
-struct angle {
-    float c, qq, x, y, z;
+/* e = v - own d: relative to the lane's b, or v itself. */
+struct offset {
+    float x, y, z, own;
 };
 
 /* Of lane l's tap; `tap` is the index of lane 0's in the planes. `mixed`: the lane looks for itself whether the tap is
  * of its own kind and not near. */
-ALWAYS_INLINE struct angle tap_angle(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
-                                     int l, bool mixed)
+ALWAYS_INLINE struct offset tap_offset(const struct filter_taps *taps, const struct filter_lanes *lanes, size_t tap,
+                                       int l, bool mixed)
 {
     const float *bx = taps->planes[FILTER_PLANE_X] + tap;
     const float *by = taps->planes[FILTER_PLANE_Y] + tap;
     const float *bz = taps->planes[FILTER_PLANE_Z] + tap;
     const float *bw = taps->planes[FILTER_PLANE_W] + tap;
-    /* e = v - (the lane's own v), which is parallel to d; or v itself. */
     float ex, ey, ez, own = lanes->distance[l];
     if (mixed) {
         float w = bw[l], ax = w * lanes->a[0][l], ay = w * lanes->a[1][l], az = w * lanes->a[2][l];
@@ -59,10 +58,19 @@ ALWAYS_INLINE struct angle tap_angle(const struct filter_taps *taps, const struc
         ey = by[l] - lanes->b[1][l];
         ez = bz[l] - lanes->b[2][l];
     }
-    float dx = lanes->direction[0][l], dy = lanes->direction[1][l], dz = lanes->direction[2][l];
-    float along = ex * dx + ey * dy + ez * dz;
-    float qx = ex - along * dx, qy = ey - along * dy, qz = ez - along * dz;
-    return (struct angle){.c = along + own, .qq = qx * qx + qy * qy + qz * qz, .x = qx, .y = qy, .z = qz};
+    return (struct offset){ex, ey, ez, own};
+}
+
+/* e.d */
+ALWAYS_INLINE float offset_along(struct offset e, const struct filter_lanes *lanes, int l)
+{
+    return e.x * lanes->direction[0][l] + e.y * lanes->direction[1][l] + e.z * lanes->direction[2][l];
+}
+
+/* e along one of the axes at right angles to d. */
+ALWAYS_INLINE float offset_across(struct offset e, const struct filter_lanes *lanes, int axis, int l)
+{
+    return e.x * lanes->across[axis][0][l] + e.y * lanes->across[axis][1][l] + e.z * lanes->across[axis][2][l];
 }
 
 /* -log2 cos^2(theta) for y = t / (2 + t), t = tan^2(theta): log2(1 + t) = 2 atanh(y) / log(2), within 2e-7 up to t = 1,
@@ -96,8 +104,10 @@ ALWAYS_INLINE void tap_weights(const struct filter_taps *taps, const struct filt
     const float *nearest = taps->planes[FILTER_PLANE_NEAREST] + tap;
     const float none = path == PATH_TABLE ? (float)WEIGHTS_TABLE_LAST : 0.0f;
     for (int l = 0; l < FILTER_LANES; l++) {
-        const struct angle angle = tap_angle(taps, lanes, tap, l, mixed);
-        float c = angle.c, qq = angle.qq, f;
+        const struct offset e = tap_offset(taps, lanes, tap, l, mixed);
+        float along = offset_along(e, lanes, l), qx = e.x - along * lanes->direction[0][l];
+        float qy = e.y - along * lanes->direction[1][l], qz = e.z - along * lanes->direction[2][l];
+        float c = along + e.own, qq = qx * qx + qy * qy + qz * qz, f;
         if (path == PATH_NARROW) {
             f = power_to_weight(-lanes->slope[l] * narrow_log2(qq / (2.0f * (c * c) + qq)));
         } else {
@@ -314,8 +324,9 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
     const float *blue = taps->planes[FILTER_PLANE_B] + tap;
     _Alignas(64) float largest[FILTER_LANES]; /* nothing else can lie here: no check stands before the vectors */
     for (int l = 0; l < FILTER_LANES; l++) {
-        const struct angle angle = tap_angle(taps, lanes, tap, l, mixed);
-        float c = angle.c, qq = angle.qq, reach = lanes->reach[l];
+        const struct offset e = tap_offset(taps, lanes, tap, l, mixed);
+        float x = offset_across(e, lanes, 0, l), y = offset_across(e, lanes, 1, l);
+        float c = offset_along(e, lanes, l) + e.own, qq = x * x + y * y, reach = lanes->reach[l];
         float far = lanes->step[l] * separation;
         float t = qq / (c * c);
         t = t < 0x1p100f ? t : 0x1p100f; /* also NaN */
@@ -323,18 +334,15 @@ ALWAYS_INLINE void see_tap(const struct filter_taps *taps, const struct filter_l
         float f = power_to_weight(-lanes->slope[l] * (narrow ? narrow_log2_of_1_plus(t) : log2_of_1_plus(t)));
         f -= lanes->floor;
         f = f > 0.0f ? f : 0.0f;
-        f *= 1.0f - before[l];
+        float hidden = hidden_share(lanes, l, area[l] > 0.0f ? t : far, before[l]);
+        f *= 1.0f - hidden;
         f = t <= reach ? f : 0.0f;
         f *= solid_angle(area[l], nearest[l], c, qq);
-        float hidden = hidden_share(lanes, l, area[l] > 0.0f ? t : far, before[l]);
         largest[l] = hidden;
         least[l] = hidden < least[l] ? hidden : least[l];
         float place = c / (c * c + qq + FLT_MIN);
-        float u = place * (angle.x * lanes->across[0][0][l] + angle.y * lanes->across[0][1][l] +
-                           angle.z * lanes->across[0][2][l]);
-        float v = place * (angle.x * lanes->across[1][0][l] + angle.y * lanes->across[1][1][l] +
-                           angle.z * lanes->across[1][2][l]);
-        float fu = f * u, fv = f * v, sum = red[l] + green[l] + blue[l];
+        float u = place * x, v = place * y, fu = f * u, fv = f * v;
+        float sum = red[l] + green[l] + blue[l];
         sums[FILTER_MOMENT_R][l] += f * red[l];
         sums[FILTER_MOMENT_G][l] += f * green[l];
         sums[FILTER_MOMENT_B][l] += f * blue[l];

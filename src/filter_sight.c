@@ -54,21 +54,22 @@ static void own_tile(const struct sight_tile *tile, const struct sight_taps *tap
 {
     _Alignas(64) float far[LANES], along[LANES], unused[LANES];
     _Alignas(16) uint8_t cells[LANES];
+    _Alignas(64) uint32_t wide[LANES]; /* the share of a cell four times, for a row of its taps */
     for (int l = 0; l < LANES; l++) {
         const float right = (float)(dx + l % 4 * 4) + 1.5f, down = (float)(dy + l / 4 * 4) + 1.5f;
         far[l] = eye->step * (right * right + down * down);
     }
     own_lanes(tile->cells[0], tile->cells[1], tile->cells[2], tile->cells[3], tile->cells[4], far, eye, along, cells);
+    for (int l = 0; l < LANES; l++)
+        wide[l] = cells[l] * 0x01010101u;
     for (int row = 0; row < 4; row++) {
         uint8_t *out = own + row * 4 * SIGHT_TILE;
         float least = INFINITY;
         for (int j = 0; j < 4; j++)
             least = fabsf(along[4 * row + j]) < least ? fabsf(along[4 * row + j]) : least;
         if (tile->off[row] * eye->steepest <= 0.03f * least) {
-            for (int j = 0; j < 4; j++)
-                memset(out + 4 * j, cells[4 * row + j], 4);
-            for (int r = 1; r < 4; r++)
-                memcpy(out + r * SIGHT_TILE, out, SIGHT_TILE);
+            for (int r = 0; r < 4; r++)
+                memcpy(out + r * SIGHT_TILE, wide + 4 * row, SIGHT_TILE);
             continue;
         }
         for (int r = 4 * row; r < 4 * row + 4; r++) {
@@ -250,9 +251,9 @@ static enum sight_kind pack(uint8_t map[SIGHT_TILE_AREA], uint8_t levels[SIGHT_P
     return most > 0 ? SIGHT_MIXED : SIGHT_ALL_SEEN;
 }
 
-/* Where a node lies from lane l, in units of r': along the direction, and off it. */
+/* Where a node lies from lane l, in units of r': along the direction, and across it. */
 struct place {
-    float c, qq, x, y, z;
+    float c, x, y;
 };
 
 ALWAYS_INLINE struct place place_of(const struct filter_node *node, const struct filter_lanes *lanes, int l)
@@ -260,8 +261,10 @@ ALWAYS_INLINE struct place place_of(const struct filter_node *node, const struct
     float vx = node->x - node->w * lanes->a[0][l], vy = node->y - node->w * lanes->a[1][l];
     float vz = node->z - node->w * lanes->a[2][l];
     float dx = lanes->direction[0][l], dy = lanes->direction[1][l], dz = lanes->direction[2][l];
-    float c = vx * dx + vy * dy + vz * dz, qx = vx - c * dx, qy = vy - c * dy, qz = vz - c * dz;
-    return (struct place){.c = c, .qq = qx * qx + qy * qy + qz * qz, .x = qx, .y = qy, .z = qz};
+    return (struct place){
+        .c = vx * dx + vy * dy + vz * dz,
+        .x = vx * lanes->across[0][0][l] + vy * lanes->across[0][1][l] + vz * lanes->across[0][2][l],
+        .y = vx * lanes->across[1][0][l] + vy * lanes->across[1][1][l] + vz * lanes->across[1][2][l]};
 }
 
 /* What the node's solid angle from its own a's is to be multiplied with for another a. */
@@ -276,6 +279,7 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
     const struct filter_lanes *lanes = &group->lanes;
     _Alignas(64) float lost[LANES], there[LANES], weight[LANES], u[LANES], v[LANES];
     const int sights = node->unlike > 0 ? group->sights : 0;
+    const float limit = group->limit;
     for (int l = 0; l < LANES; l++)
         lost[l] = sights > 0 ? 0.0f : hidden[0];
     for (int s = 0; s < sights; s++)
@@ -283,12 +287,14 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
             lost[l] += group->share[s][l] * hidden[s];
     for (int l = 0; l < LANES; l++) {
         const struct place place = place_of(node, lanes, l);
-        float c = place.c, qq = place.qq, square = c * c + qq, t = qq / (c * c);
+        float c = place.c, qq = place.x * place.x + place.y * place.y, square = c * c + qq, t = qq / (c * c);
         t = t < 0x1p100f ? t : 0x1p100f;
         t = c > 0.0f ? t : 0x1p100f;
         float f = power_to_weight(-lanes->slope[l] * log2_of_1_plus(t)) - lanes->floor;
         f = f > 0.0f ? f : 0.0f;
+        float dx = node->column - group->column[l], dy = node->row - group->row[l];
         f = t <= lanes->reach[l] ? f : 0.0f;
+        f = dx * dx + dy * dy <= limit ? f : 0.0f;
         float share = (lanes->blind[l] - t) * lanes->fade[l];
         share = clamp_share(share);
         f *= enlarged(node, square);
@@ -296,10 +302,8 @@ ALWAYS_INLINE void see_node(const struct filter_node *node, const float *hidden,
         share -= lost[l];
         weight[l] = f * (share > 0.0f ? share : 0.0f);
         float scale = c / (square + FLT_MIN);
-        u[l] = scale * (place.x * lanes->across[0][0][l] + place.y * lanes->across[0][1][l] +
-                        place.z * lanes->across[0][2][l]);
-        v[l] = scale * (place.x * lanes->across[1][0][l] + place.y * lanes->across[1][1][l] +
-                        place.z * lanes->across[1][2][l]);
+        u[l] = scale * place.x;
+        v[l] = scale * place.y;
     }
     const float solid = node->solid, square = node->square;
     const float unsteady = clamp_share(group->turn + group->move * node->w - 1), unlike = node->unlike * solid;
@@ -350,8 +354,7 @@ static void see(const struct filter_node *nodes, const float *hidden, int count,
     for (int first = 0; first < count; first += CHUNK) {
         _Alignas(64) float partial[FILTER_MOMENTS][LANES] = {{0}};
         for (int i = first; i < first + CHUNK && i < count; i++)
-            if (nodes[i].visible)
-                see_node(&nodes[i], hidden + (size_t)i * SIGHTS_OF_GROUP, group, partial, sums);
+            see_node(&nodes[i], hidden + (size_t)i * SIGHTS_OF_GROUP, group, partial, sums);
         for (int i = 0; i < FILTER_MOMENTS; i++)
             for (int l = 0; l < LANES; l++)
                 sums->value[i][l] += (double)partial[i][l];
@@ -364,13 +367,13 @@ ALWAYS_INLINE void pool_node(const struct filter_node *node, const struct filter
     const struct filter_lanes *lanes = &group->lanes;
     for (int l = 0; l < LANES; l++) {
         const struct place place = place_of(node, lanes, l);
-        float c = place.c, t = place.qq / (c * c);
+        float c = place.c, qq = place.x * place.x + place.y * place.y, t = qq / (c * c);
         t = t < 0x1p100f ? t : 0x1p100f;
         float f = power_to_weight(-lanes->slope[l] * log2_of_1_plus(t));
         float dx = node->column - group->column[l], dy = node->row - group->row[l];
         f = c > 0.0f ? f : 0.0f;
         f = dx * dx + dy * dy <= lanes->limit[l] ? f : 0.0f;
-        f *= node->solid * enlarged(node, c * c + place.qq);
+        f *= node->solid * enlarged(node, c * c + qq);
         sums[0][l] += f * node->radiance[0];
         sums[1][l] += f * node->radiance[1];
         sums[2][l] += f * node->radiance[2];

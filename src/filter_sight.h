@@ -87,7 +87,6 @@ struct filter_node {
     float radiance[3];   /* mean of L0, R, G, B, and of (R + G + B)^2, by the solid angle */
     float square;
     float column, row;   /* middle, pixels */
-    bool visible;        /* from any of the group's sights */
     float unlike;        /* by how much of it the group's sights differ */
 };
 
@@ -96,6 +95,7 @@ struct filter_node {
 struct filter_group {
     struct filter_lanes lanes;
     float column[FILTER_LANES], row[FILTER_LANES];
+    float limit; /* farthest node that is seen, from its middle, pixels^2 */
     int sights;
     float share[SIGHTS_OF_GROUP][FILTER_LANES];
     float turn, move; /* how far the direction and a shift over the group, of how far things may */

@@ -12,6 +12,9 @@ static const float range_least = 0.05f;
 /* How many times larger a cell that no sight sees may be. */
 static const float unseen_size = 3;
 
+/* A cell that isn't larger than this share of how far is seen is in or out as its middle is. */
+static const double limit_share = 1 / 16.;
+
 struct walker {
     const struct filter *filter;
     const struct filter_cells *cells;
@@ -78,7 +81,8 @@ static struct view view_of(const struct filter_walk *walk, const struct filter_c
     }
     const float spread = filter_node_spread(layer, cell->a, a), off = 2 * spread, distance = sqrtf(square);
     const float nearest = distance > off ? distance - off : 0, aside_square = square - c * c;
-    const float aside = aside_square > off * off ? sqrtf(aside_square) - off : 0;
+    const float beside = off + walk->turn * distance;
+    const float aside = aside_square > beside * beside ? sqrtf(aside_square) - beside : 0;
     struct view view = {.spread = spread / (distance + FLT_MIN)};
     const float t = aside / (c + off) * aside / (c + off);
     if (c + off > 0 && t <= lanes->reach[l] * margin)
@@ -87,17 +91,20 @@ static struct view view_of(const struct filter_walk *walk, const struct filter_c
     return view;
 }
 
-/* Whether the cell, small enough for its distance, is to be opened: its directions differ too much, or part of it is
- * hidden, and that counts. *visible: whether any of it is seen, which it isn't out of the lobe. */
+static bool is_spread(const struct filter_walk *walk, struct view near, struct view far)
+{
+    return (near.weight > 0 && near.spread > walk->spread) || (far.weight > 0 && far.spread > walk->spread);
+}
+
+/* Whether the cell, seen and small enough for its distance, is to be opened: its directions differ too much, or part of
+ * it is hidden, and that counts. *weight: as in views. */
 static bool is_mixed(const struct filter_walk *walk, const struct filter_cell *cell, const struct look *look,
-                     bool *visible)
+                     float *weight)
 {
     const struct view near = view_of(walk, cell, 0), far = view_of(walk, cell, 1);
-    const float weight = near.weight + far.weight;
-    const bool spread =
-        (near.weight > 0 && near.spread > walk->spread) || (far.weight > 0 && far.spread > walk->spread);
-    *visible = *visible && weight > 0;
-    return spread || (*visible && look->range > range_least && weight * look->range > walk->hidden * walk->lobe);
+    *weight = near.weight + far.weight;
+    return is_spread(walk, near, far) ||
+           (look->range > range_least && *weight * look->range > walk->hidden * walk->lobe);
 }
 
 static bool nodes_reserve(struct filter_nodes *list)
@@ -114,20 +121,40 @@ static bool nodes_reserve(struct filter_nodes *list)
     return !list->out_of_memory;
 }
 
-static void node_add(struct walker *walker, const struct filter_node *node, float column, float row, bool visible)
+static void rest_add(struct filter_nodes *list, int k, int x, int y)
+{
+    if (list->rest_count == list->rest_capacity) {
+        const int capacity = list->rest_capacity ? 2 * list->rest_capacity : 1024;
+        struct filter_place *rest = realloc(list->rest, (size_t)capacity * sizeof *rest);
+        list->out_of_memory = !rest;
+        if (!rest)
+            return;
+        list->rest = rest;
+        list->rest_capacity = capacity;
+    }
+    list->rest[list->rest_count++] = (struct filter_place){k, x, y};
+}
+
+/* A node of cell (x, y) of level k; NULL: no memory. */
+static struct filter_node *node_add(struct filter_nodes *list, const struct filter_node *node, int k, int x, int y)
+{
+    if (!nodes_reserve(list))
+        return NULL;
+    struct filter_node *added = &list->nodes[list->count++];
+    *added = *node;
+    added->column = (float)(x << k) + (float)((1 << k) - 1) / 2;
+    added->row = (float)(y << k) + (float)((1 << k) - 1) / 2;
+    return added;
+}
+
+/* The same, seen as the walk found it. */
+static void seen_add(struct walker *walker, const struct filter_node *node, int k, int x, int y)
 {
     struct filter_nodes *list = walker->list;
-    if (!nodes_reserve(list))
+    struct filter_node *added = node_add(list, node, k, x, y);
+    if (!added)
         return;
-    struct filter_node *added = &list->nodes[list->count];
-    float *hidden = list->hidden + (size_t)list->count++ * SIGHTS_OF_GROUP, low = 1, high = 0;
-    *added = *node;
-    added->column = column;
-    added->row = row;
-    added->visible = visible;
-    added->unlike = 0;
-    if (!visible)
-        return;
+    float *hidden = list->hidden + (size_t)(list->count - 1) * SIGHTS_OF_GROUP, low = 1, high = 0;
     hidden[0] = 0;
     for (int s = 0; s < walker->walk->sight_count; s++) {
         const float share = walker->hidden[s];
@@ -138,41 +165,67 @@ static void node_add(struct walker *walker, const struct filter_node *node, floa
     added->unlike = high > low ? high - low : 0;
 }
 
-/* Adds the nodes of a cell of level k, or of its parts. */
+/* How far cell (x, y) of level k is from the block, pixels. */
+static int away_of(const struct filter_walk *walk, int k, int x, int y)
+{
+    const int size = 1 << k, left = x << k, top = y << k, right = left + size - 1, bottom = top + size - 1;
+    const int off_x = left > walk->right ? left - walk->right : walk->left > right ? walk->left - right : 0;
+    const int off_y = top > walk->bottom ? top - walk->bottom : walk->top > bottom ? walk->top - bottom : 0;
+    return off_x > off_y ? off_x : off_y;
+}
+
+static const struct filter_cell *cell_at(const struct filter_cells *cells, int k, int x, int y)
+{
+    return &cells->level[k][(size_t)y * (size_t)cells->width[k] + (size_t)x];
+}
+
+/* Whether some of cell (x, y) of level k is as far from some of the block as is seen, or farther, and the cell isn't
+ * small for that. */
+static bool is_at_limit(const struct filter_walk *walk, int k, int x, int y)
+{
+    const int size = 1 << k, left = x << k, top = y << k;
+    const double off_x = fmax(left + size - 1 - walk->left, walk->right - left);
+    const double off_y = fmax(top + size - 1 - walk->top, walk->bottom - top);
+    return size > limit_share * (double)walk->limit_px && hypot(off_x, off_y) > walk->limit_px;
+}
+
+/* Adds the nodes of a cell of level k, or of its parts; and what isn't seen, or isn't in the lobe, to the rest. */
 static void cell_walk(struct walker *walker, int k, int x, int y, const struct look *whole)
 {
     const struct filter_walk *walk = walker->walk;
     const struct filter_cells *cells = walker->cells;
-    const int size = 1 << k, left = x << k, top = y << k, right = left + size - 1, bottom = top + size - 1;
-    const int off_x = left > walk->right ? left - walk->right : walk->left > right ? walk->left - right : 0;
-    const int off_y = top > walk->bottom ? top - walk->bottom : walk->top > bottom ? walk->top - bottom : 0;
-    const int away = off_x > off_y ? off_x : off_y;
-    const float column = (float)left + (float)(size - 1) / 2, row = (float)top + (float)(size - 1) / 2;
-    if (walker->list->out_of_memory)
+    struct filter_nodes *list = walker->list;
+    float weight = 0;
+    if (list->out_of_memory)
         return;
     const struct look look = look_at(walker, k, x, y, whole);
-    bool visible = look.seen || look.open_count > 0;
-    if (!visible && away > walk->reach_px)
+    if (!look.seen && look.open_count == 0) {
+        rest_add(list, k, x, y);
         return;
+    }
     if (k == 0) {
         struct filter_node node;
         if (filter_cell_of_pixel(walker->filter, x, y, &node))
-            node_add(walker, &node, column, row, visible);
+            seen_add(walker, &node, k, x, y);
         return;
     }
-    const struct filter_cell *cell = &cells->level[k][(size_t)y * (size_t)cells->width[k] + (size_t)x];
-    const bool large = size > walk->finest && (float)size > (float)away * walk->size * (visible ? 1 : unseen_size);
-    if (cell->pixels == 0)
+    const struct filter_cell *cell = cell_at(cells, k, x, y);
+    const int away = away_of(walk, k, x, y);
+    if (cell->pixels == 0 || away > walk->limit_px)
         return;
-    if (large || is_mixed(walk, cell, &look, &visible)) {
+    const bool large = 1 << k > walk->finest &&
+                       ((float)(1 << k) > (float)away * walk->size || is_at_limit(walk, k, x, y));
+    if (large || is_mixed(walk, cell, &look, &weight)) {
         for (int v = 2 * y; v < 2 * y + 2 && v < cells->height[k - 1]; v++)
             for (int u = 2 * x; u < 2 * x + 2 && u < cells->width[k - 1]; u++)
                 cell_walk(walker, k - 1, u, v, &look);
         return;
     }
-    for (int i = 0; i < 2; i++)
-        if (cell->layer[i].solid > 0 && (visible || away <= walk->reach_px))
-            node_add(walker, &cell->layer[i], column, row, visible);
+    if (!(weight > 0))
+        rest_add(list, k, x, y);
+    for (int i = 0; i < 2 && weight > 0; i++)
+        if (cell->layer[i].solid > 0)
+            seen_add(walker, &cell->layer[i], k, x, y);
 }
 
 void filter_walk(const struct filter *filter, const struct filter_cells *cells, const struct filter_walk *walk,
@@ -183,8 +236,53 @@ void filter_walk(const struct filter *filter, const struct filter_cells *cells, 
     struct look whole = {.seen = walk->sight_count == 0, .open_count = walk->sight_count};
     for (int s = 0; s < walk->sight_count; s++)
         whole.open[s] = (unsigned char)s;
-    nodes->count = 0;
+    nodes->count = nodes->rest_count = 0;
     for (int y = 0; y < cells->height[top]; y++)
         for (int x = 0; x < cells->width[top]; x++)
             cell_walk(&walker, top, x, y, &whole);
+    nodes->seen = nodes->count;
+}
+
+static void rest_walk(const struct walker *walker, int k, int x, int y)
+{
+    const struct filter_walk *walk = walker->walk;
+    const struct filter_cells *cells = walker->cells;
+    const int away = away_of(walk, k, x, y);
+    if (away > walk->reach_px || walker->list->out_of_memory)
+        return;
+    if (k == 0) {
+        struct filter_node node;
+        if (filter_cell_of_pixel(walker->filter, x, y, &node))
+            (void)node_add(walker->list, &node, k, x, y);
+        return;
+    }
+    const struct filter_cell *cell = cell_at(cells, k, x, y);
+    if (cell->pixels == 0)
+        return;
+    const bool large = 1 << k > walk->finest && (float)(1 << k) > (float)away * walk->size * unseen_size;
+    if (large || is_spread(walk, view_of(walk, cell, 0), view_of(walk, cell, 1))) {
+        for (int v = 2 * y; v < 2 * y + 2 && v < cells->height[k - 1]; v++)
+            for (int u = 2 * x; u < 2 * x + 2 && u < cells->width[k - 1]; u++)
+                rest_walk(walker, k - 1, u, v);
+        return;
+    }
+    for (int i = 0; i < 2; i++)
+        if (cell->layer[i].solid > 0)
+            (void)node_add(walker->list, &cell->layer[i], k, x, y);
+}
+
+void filter_walk_rest(const struct filter *filter, const struct filter_cells *cells, const struct filter_walk *walk,
+                      struct filter_nodes *nodes)
+{
+    const struct walker walker = {.filter = filter, .cells = cells, .walk = walk, .list = nodes};
+    for (int i = 0; i < nodes->rest_count; i++)
+        rest_walk(&walker, nodes->rest[i].level, nodes->rest[i].x, nodes->rest[i].y);
+    nodes->rest_count = 0;
+}
+
+void filter_nodes_free(struct filter_nodes *nodes)
+{
+    free(nodes->nodes);
+    free(nodes->hidden);
+    free(nodes->rest);
 }

@@ -5,11 +5,18 @@
 #include "filter_cells.h"
 #include "filter_visibility.h"
 
-/* Nodes in a row, and the hidden share of each, 0 to 1, for each sight: SIGHTS_OF_GROUP. All 0: none. */
+struct filter_place {
+    int level, x, y;
+};
+
+/* What is seen, as nodes in a row, with the hidden share of each, 0 to 1, for each sight: SIGHTS_OF_GROUP; and the
+ * cells that aren't, from which filter_walk_rest() makes further nodes. All 0: none. */
 struct filter_nodes {
     struct filter_node *nodes;
     float *hidden;
-    int count, capacity;
+    int count, capacity, seen; /* nodes; the first `seen` of them are seen */
+    struct filter_place *rest;
+    int rest_count, rest_capacity;
     bool out_of_memory;
 };
 
@@ -19,8 +26,10 @@ struct filter_walk {
     int left, top, right, bottom;     /* of the block, pixels, inclusive */
     int finest;                       /* cells of so many pixels are always used whole */
     int reach_px;                     /* of the pool, from the block */
+    int limit_px;                     /* nothing farther from a pixel is seen */
     const struct filter_lanes *lanes; /* of the block's pixels */
     int middle;                       /* a lane in the middle */
+    float turn;                       /* of the pixels' directions from the middle one, radians */
     float lobe;                       /* its integral, steradians */
     float size;                       /* of a cell, of its distance in pixels */
     float spread;                     /* of a cell's directions, radians */
@@ -29,8 +38,14 @@ struct filter_walk {
     int sight_count;                  /* 0: all is seen */
 };
 
-/* In place of the nodes that were there. */
+/* The nodes that are seen, in place of what was there, and the cells that aren't. */
 void filter_walk(const struct filter *filter, const struct filter_cells *cells, const struct filter_walk *walk,
                  struct filter_nodes *nodes);
+
+/* After filter_walk(): adds the nodes of what isn't seen. */
+void filter_walk_rest(const struct filter *filter, const struct filter_cells *cells, const struct filter_walk *walk,
+                      struct filter_nodes *nodes);
+
+void filter_nodes_free(struct filter_nodes *nodes);
 
 #endif

@@ -327,7 +327,7 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                                        double colour[3])
 {
     const int width = gbuffer->phong.width, height = gbuffer->phong.height;
-    const double pi = 3.14159265358979324, floor_weight = 0.001;
+    const double pi = 3.14159265358979324, floor_weight = 1 - options->energy;
     const double phong = (double)image_row(&gbuffer->phong, 0, y)[x], own_area = areas[y * width + x];
     double own[3];
     const double own_distance = oracle_direction(gbuffer, x, y, x, y, own);
@@ -364,7 +364,7 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                 double nearest = fmax(distance * distance, from_own * from_own / 10);
                 double solid = area / (nearest + area / (2 * pi)), weight = pow(1 + t, -p / 2);
                 ways[v * width + u] = fmin(fmax(before, (t / blind - 0.3) / 0.7), 1);
-                double f = t <= reach ? (1 - before) * fmax(weight - floor_weight, 0) * solid : 0;
+                double f = t <= reach ? (1 - ways[v * width + u]) * fmax(weight - floor_weight, 0) * solid : 0;
                 double cosine_at = 0, sum = 0, at[3];
                 for (int i = 0; i < 3; i++) {
                     cosine_at += direction[i] * own[i];
@@ -392,7 +392,14 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
             }
     double cosine = pow(floor_weight, 1 / p);
     double cut = 2 * pi * ((1 - cosine * floor_weight) / (p + 1) - floor_weight * (1 - cosine));
-    double share = fmax(pow(4 / (pixels + 4), 2) - 1.0 / 1024, 0) + 0.5 * fmax(0.98 * cut - seen[3], 0) / pool[3];
+    double narrow = 0, faded = 0; /* a narrow lobe's integral, and with what it hides of itself */
+    for (int i = 0; i < 2000; i++) {
+        double end = -log(floor_weight), at = end * (i + 0.5) / 2000, f = exp(-at) - floor_weight;
+        narrow += f;
+        faded += f * fmin((1 - at / end / 1.21) / 0.7, 1);
+    }
+    cut *= faded / narrow;
+    double share = fmax(pow(4 / (pixels + 4), 2) - 1.0 / 64, 0) + 0.5 * fmax(0.93 * cut - seen[3], 0) / pool[3];
     if (radius < 1)
         share = 0;
     /* Normal equations of the plane, in space: the slope has no part along the direction, where second is 0. */

@@ -36,7 +36,7 @@ static void cli__plain_command__has_the_defaults(void **state)
     assert_int_equal(filter->max_radius_px, 0);
     assert_int_equal(filter->threads, 0);
     assert_true(isnan(filter->phong) && !filter->phong_override);
-    assert_near(filter->energy, 0, 0);
+    assert_near(filter->energy, 0.99, 0);
     assert_near(filter->max_angle_rad, 1.5707963267948966, 1e-15);
     assert_int_equal(command.options.bits, 8);
     assert_false(command.options.layers || command.options.quiet || command.help || command.version);

@@ -61,13 +61,19 @@ static void extremes__exponents_1e_minus_6_to_1e8__match_the_oracle(void **state
 
 /* --- angles --- */
 
+/* tan^2(theta) from which on the best filter sees nothing. */
+static double blind_of(double phong, double floor_weight)
+{
+    return 1.21 * fmin(pow(floor_weight, -2 / phong) - 1, 0x1p99);
+}
+
 /* Two pixels, whose endpoints are in directions at an angle; the first one's result is (0 + f)/(1 + f). */
 static void extremes__angle_from_0_to_180_degrees__weighs_by_the_power(void **state)
 {
     (void)state;
     static const double angles[] = {0, 1e-6, 1e-3, 1, 10, 45, 89.99, 90, 90.01, 135, 180};
     static const double exponents[] = {0, 1e-6, 0.5, 1, 10, 1e4, 1e8, 1e20, INFINITY};
-    const double floor_weight = 0.001; /* of the best filter */
+    const double floor_weight = 0.01; /* of the best filter */
     for (int turn = 0; turn < 2; turn++) /* the endpoint above the surface, and behind it: only the angle counts */
         for (int m = 0; m < MODES; m++)
             for (size_t i = 0; i < sizeof angles / sizeof *angles; i++)
@@ -87,7 +93,8 @@ static void extremes__angle_from_0_to_180_degrees__weighs_by_the_power(void **st
                     if (exponents[j] >= 1e20)
                         f = 0; /* narrower than any pixel */
                     else if (m == 1)
-                        f = fmax(f - floor_weight, 0) / (1 - floor_weight);
+                        f = fmax(f - floor_weight, 0) / (1 - floor_weight) *
+                            fmax(0, fmin((1 - pow(tan(angle), 2) / blind_of(exponents[j], floor_weight)) / 0.7, 1));
                     double result = result_at(&gbuffer, &options, 0, 0), expected = f / (1 + f);
                     if (!(fabs(result - expected) <= 1e-6 + 1e-5 * expected))
                         fail_msg("mode %d, %g degrees, p = %g: %.9g in place of %.9g", m, angles[i], exponents[j],

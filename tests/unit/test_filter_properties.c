@@ -655,7 +655,7 @@ static void change_options(struct filter_options *options)
     options->window = (enum filter_window)random_between(0, 2);
     options->phong_override = random_unit() < 0.6;
     options->phong = phongs[(size_t)random_between(0, sizeof phongs / sizeof phongs[0])];
-    options->energy = random_unit() < 0.3 ? 0.9 : 0;
+    options->energy = random_unit() < 0.3 ? 0.9 : 0.99;
     options->max_radius_px = random_unit() < 0.2 ? 5 : 0;
     options->radius_step = random_unit() < 0.2 ? 4 : 1;
     options->threads = (int)random_between(1, 4);
