@@ -11,8 +11,8 @@
 /* Tolerances of the best filter: 0, the sums as they are written below; else far pixels are taken together, and some
  * pixels computed and the others interpolated (filter_fast.c), so that on three scenes, at exponents of 30, 300 and
  * 3000, the RMSE of the picture against the exact one, linear, is no larger; see docs/performance.md. Exact in any case
- * are pictures of fewer than 16384 pixels, but for a draft, and all with a max_radius_px below 32. Only exact results of
- * flipped passes are the flipped results. */
+ * are pictures of fewer than 16384 pixels, but for a draft, and all with a max_radius_px below 32. Only exact results
+ * of flipped passes are the flipped results. */
 #define FILTER_TOLERANCE_LEAST 0.0007
 #define FILTER_TOLERANCE_HIGH 0.001
 #define FILTER_TOLERANCE_NORMAL 0.0015

@@ -131,9 +131,9 @@ filter_kernel filter_kernel_sse2, filter_kernel_avx2, filter_kernel_avx512;
  * in front of what follows on the line: what comes back into the lobe after a tap at a larger angle theta is another
  * thing behind that one, or what another mirror saw. A tap hides 1 - (blind - t) fade, 0 to 1, of itself and of what
  * follows, with t its tan^2(theta), and no more than the most on the line counts: shares of all or none would show in
- * the picture as lines. The taps that are seen are thus one patch around the lane's own pixel, which grows until all of
- * its rim is out of reach. The straight line to a tap comes in between two neighbours, each of which counts the more the
- * nearer the line is to it.
+ * the picture as lines. The taps that are seen are thus one patch around the lane's own pixel, which grows until all
+ * of its rim is out of reach. The straight line to a tap comes in between two neighbours, each of which counts the more
+ * the nearer the line is to it.
  *
  * scratch: FILTER_SEE_SCRATCH(width) bytes, aligned to 64, with any content. */
 typedef void filter_see(const struct filter_taps *taps, const struct filter_lanes *lanes, float *scratch,
