@@ -563,17 +563,23 @@ static double lobe_reach(const struct filter *filter, double phong)
     return fmin(fmin(reach, filter->options->max_angle_rad < pi / 2 ? limit * limit : INFINITY), ninety_degrees);
 }
 
+/* The sum of a pixel's weights where nothing is hidden, steradians. */
+static double whole_lobe(const struct filter *filter, int x, int y)
+{
+    return filter->whole * lobe_integral(lobe_exponent(filter, x, y), filter->floor);
+}
+
 /* A lobe that is narrow for the mirror's curvature holds few pixels, n, and chance errs more there than what should be
  * hidden: share = (pool_pixels / (n + pool_pixels))^2, less a little. And half of what no seen pixel covers is taken
  * from the others. */
 static struct filter_help help_of_pixel(const struct filter *filter, int x, int y, double seen)
 {
     const double few = pool_pixels / (pixels_in_lobe(filter, x, y) + pool_pixels);
-    const double lobe = filter->whole * lobe_integral(lobe_exponent(filter, x, y), filter->floor);
+    const double least_seen = (1 - missing_least) * whole_lobe(filter, x, y);
     if (filter->options->without & FILTER_WITHOUT_POOL || image_row(&filter->radius, 0, y)[x] < 1)
         return (struct filter_help){0};
     return (struct filter_help){.share = fmax(few * few - pool_share_least, 0),
-                                .missing = missing_share * fmax((1 - missing_least) * lobe - seen, 0)};
+                                .missing = missing_share * fmax(least_seen - seen, 0)};
 }
 
 bool filter_help_needed(const struct filter *filter, const struct filter_pixels *pixels,
@@ -669,7 +675,7 @@ static void pixel_write_best(struct filter *filter, int x, int y, int l, const s
     if (help.missing > 0 && pool->value[3][l] > 0)
         share += help.missing / pool->value[3][l];
     double phong = lobe_exponent(filter, x, y), weight = seen->value[FILTER_MOMENT_1][l];
-    double confidence = fmin(weight / (filter->whole * lobe_integral(phong, filter->floor)), 1);
+    double confidence = fmin(weight / whole_lobe(filter, x, y), 1);
     const bool fit = weight > 0 && !(filter->options->without & FILTER_WITHOUT_FIT);
     const double even = evenness(seen, l);
     for (int i = 0; i < 3; i++)
