@@ -37,7 +37,10 @@ static const double blind_ratio = 1.21, fade_share = 0.7;
 static const double least_pixels = 0.125;
 
 /* See help_of_pixel(); so little that it isn't worth its time is taken off. */
-static const double pool_pixels = 4, pool_radius = 32, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.07;
+static const double pool_pixels = 4, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.07;
+
+/* See radius_at(), pixels. */
+static const double pool_radius = 32;
 
 /* Of fit_plane() and evenness(). */
 static const double ridge = 0.3, even_contrast = 3;
