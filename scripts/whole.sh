@@ -2,7 +2,7 @@
 # The whole command's time against POV-Ray's own for the mirror picture, of the same size and antialiasing.
 #
 # RUNS (5) rounds, in each of which every scene is drawn by both, one after the other; medians. SIZE (+W640 +H480 +A0.3),
-# SCENES (below; without povgloss.inc all that reflects is glossy), OPTIONS of povgloss passes. Prints a table in Markdown.
+# SCENES (below; without povgloss.inc all that reflects is glossy), OPTIONS of povgloss render. Prints a table in Markdown.
 set -eu
 export LC_ALL=C.UTF-8
 root=$PWD
@@ -28,7 +28,7 @@ median() {
     awk "{ print $2 }" "$scratch/$1" | sort -g | awk '{ value[NR] = $1 } END { print value[int((NR + 1) / 2)] }'
 }
 
-echo '| scene | POV-Ray: wall, s | CPU, s | povgloss passes: wall, s | CPU, s | ratio of wall | of CPU |'
+echo '| scene | POV-Ray: wall, s | CPU, s | povgloss render: wall, s | CPU, s | ratio of wall | of CPU |'
 echo '|---|---|---|---|---|---|---|'
 for scene in "${scenes[@]}"; do
     name=$(basename "$scene" .pov)
@@ -37,8 +37,8 @@ for scene in "${scenes[@]}"; do
     cd "$(dirname "$scene")"
     for ((run = 0; run < ${RUNS:-5}; run++)); do
         timed "$name.povray" povray "$name.pov" "+L$root/povscenes" "${size[@]}" -D +FE "+O$scratch/plain.exr"
-        timed "$name.povgloss" "$bin/povgloss" passes "$name.pov" "+L$root/povscenes" "${size[@]}" "${gloss[@]}" \
-            "${options[@]}" -o "$scratch/passes.exr"
+        timed "$name.povgloss" "$bin/povgloss" render "$name.pov" "+L$root/povscenes" "${size[@]}" "${gloss[@]}" \
+            "${options[@]}" -o "$scratch/glossy.exr"
     done
     # shellcheck disable=SC2016 # awk's fields
     echo "$name $(median "$name.povray" '$1') $(median "$name.povray" '$2 + $3')" \

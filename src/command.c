@@ -352,7 +352,8 @@ enum result command_parse(int argc, char **argv, struct command *command, struct
     command->passes.switches = switches;
     command->passes.reads = command->depfile;
     command->passes.rays = command->rays > 0;
-    command->passes.means = !command->no_means && command->kind <= KIND_PASSES;
+    const bool draft = command->kind == KIND_RENDER && command->filter.filter.tolerance >= FILTER_TOLERANCE_DRAFT;
+    command->passes.means = !command->no_means && !draft && command->kind <= KIND_PASSES;
     command->passes.check = !command->no_check && !command->filter.quiet && command->kind <= KIND_PASSES;
     command->passes.frames = frames_plan(&switches->frames);
     return result ? result : check_command(command, switches, err);

@@ -39,6 +39,9 @@ static const double least_pixels = 0.125;
 /* See help_of_pixel(); so little that it isn't worth its time is taken off. */
 static const double pool_pixels = 4, pool_share_least = 1.0 / 64, missing_share = 0.5, missing_least = 0.07;
 
+/* See radius_at(), pixels. */
+static const double pool_radius = 32;
+
 /* Of fit_plane() and evenness(). */
 static const double ridge = 0.3, even_contrast = 3;
 
@@ -291,7 +294,19 @@ static double radius_from_gradient(const struct filter *filter, int x, int y, do
     return isinf(step) ? 0 : half_angle / step;
 }
 
-/* Equations (4) and (5) with the picture's and the user's limit, for a glossy pixel. */
+/* How many pixels like (x, y) the lobe cos^p of its own holds. */
+static double pixels_in_lobe(const struct filter *filter, int x, int y)
+{
+    float a[3];
+    double direction[3];
+    filter_position_at(filter, x, y, a);
+    const double distance = filter_direction_to(filter, a, x, y, direction);
+    const double area = (double)*filter_tap_at(filter, FILTER_PLANE_AREA, x, y);
+    return lobe_integral(filter_exponent_at(filter, x, y), 0) / (area / (distance * distance + area / (2 * pi)));
+}
+
+/* Equations (4) and (5) with the picture's and the user's limit, for a glossy pixel; of the best filter, whose pool it
+ * is, no more than its few pixels ask for. */
 static double radius_at(const struct filter *filter, int x, int y)
 {
     const struct gbuffer *gbuffer = filter->gbuffer;
@@ -313,6 +328,8 @@ static double radius_at(const struct filter *filter, int x, int y)
     } else {
         radius = radius_from_gradient(filter, x, y, half_angle);
     }
+    if (filter->options->mode == FILTER_MODE_BEST)
+        radius = fmin(radius, pool_radius + sqrt(pixels_in_lobe(filter, x, y)));
     return fmin(radius, filter->radius_limit_px);
 }
 
@@ -402,17 +419,6 @@ static void across_axes(const double d[3], struct filter_lanes *lanes, int l)
         lanes->across[0][k][l] = (float)axis[k];
         lanes->across[1][k][l] = (float)(d[next] * axis[last] - d[last] * axis[next]);
     }
-}
-
-/* How many pixels like (x, y) the lobe cos^p of its own holds. */
-static double pixels_in_lobe(const struct filter *filter, int x, int y)
-{
-    float a[3];
-    double direction[3];
-    filter_position_at(filter, x, y, a);
-    const double distance = filter_direction_to(filter, a, x, y, direction);
-    const double area = (double)*filter_tap_at(filter, FILTER_PLANE_AREA, x, y);
-    return lobe_integral(filter_exponent_at(filter, x, y), 0) / (area / (distance * distance + area / (2 * pi)));
 }
 
 /* The exponent that the pixel's sums are taken with. A pixel's L0 stands for all directions between it and the next

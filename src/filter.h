@@ -83,8 +83,9 @@ const struct gbuffer *filter_gbuffer(const struct filter *filter);
  *   has less of its slope, by 3 E^2 / E(L0^2), and what isn't seen is taken to have fewer of them (part of the fit).
  * - q = p / (1 + 1 / (n + 1/8)), where the lobe of p holds n pixels like this one: a lobe as wide as p's and the pixel
  *   together, for what lies between two pixels is known by these alone (without density q = p).
- * - What is not seen helps by its sum over the window of equation (5): half as much as the seen ones leave uncovered of
- *   the lobe, and (4 / (n + 4))^2.
+ * - What is not seen helps by its sum over the window of equation (5), of at most 32 + sqrt(n) pixels' radius: half as
+ *   much as the seen ones leave uncovered of the lobe, and (4 / (n + 4))^2. What is farther away on a bent or bumpy
+ *   mirror, whose lobes hold few pixels, shows other things.
  * With rays in the gbuffer the result is then corrected by them: see control_variate.h.
  * Confidence, 0 to 1: the sum of f over what it is where nothing is hidden, the share of the lobe that what is seen
  * covers.

@@ -71,6 +71,10 @@ none() {
 check "passes__antialiased__one_more" [ -d kept/specular-mean ]
 check "passes__not_antialiased__no_means" none plain -A
 check "passes__subsampled__no_means" none subsampled +A0.3 --subsample 2
+draft() {
+    "$bin/povgloss" render "$scene" "${options[@]}" +A0.3 --quality draft --keep draft -o draft.png && kept draft
+}
+check "render__draft__no_means" draft
 printf 'fog { distance 50 rgb 0.5 }\n#include "%s"\n' "$scene" > fog.pov
 fog() {
     "$bin/povgloss" passes fog.pov "${options[@]}" +A0.3 --keep fog -o fog.exr && kept fog

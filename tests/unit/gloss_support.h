@@ -320,7 +320,7 @@ UNUSED static double oracle_gradient(const struct gbuffer *gbuffer, int x, int y
     return isinf(least) ? 0 : least / 2.25;
 }
 
-/* The best filter at a glossy pixel, ring by ring over the whole picture; radius is that of the pool, equation (5).
+/* The best filter at a glossy pixel, ring by ring over the whole picture; radius is that of equation (5).
  * `ways`: width * height doubles, `areas` oracle_area of every pixel. Returns the confidence. */
 UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const struct filter_options *options,
                                        double radius, const double *areas, double *ways, int x, int y,
@@ -334,7 +334,7 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
     const double own_solid = own_area / (own_distance * own_distance + own_area / (2 * pi));
     const double pixels = 2 * pi / (phong + 1) / own_solid, p = phong / (1 + 1 / (pixels + 0.125));
     const double reach = pow(floor_weight, -2 / p) - 1, blind = 1.21 * fmin(pow(floor_weight, -2 / phong) - 1, 0x1p99);
-    const double gradient = oracle_gradient(gbuffer, x, y);
+    const double gradient = oracle_gradient(gbuffer, x, y), pooled = fmin(radius, 32 + sqrt(pixels));
     double seen[4] = {0}, pool[4] = {0}, low[3] = {INFINITY, INFINITY, INFINITY};
     double high[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0, place[3] = {0}, second[3][3] = {{0}};
     double radiance_place[3][3] = {{0}};
@@ -387,7 +387,7 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
                     }
                     for (int j = 0; j < 3 && i < 3; j++)
                         radiance_place[i][j] += f * value * cosine_at * (direction[j] - cosine_at * own[j]);
-                    pool[i] += dx * dx + dy * dy <= radius * radius ? weight * solid * value : 0;
+                    pool[i] += dx * dx + dy * dy <= pooled * pooled ? weight * solid * value : 0;
                 }
             }
     double cosine = pow(floor_weight, 1 / p);
@@ -400,7 +400,7 @@ UNUSED static double oracle_best_pixel(const struct gbuffer *gbuffer, const stru
     }
     cut *= faded / narrow;
     double share = fmax(pow(4 / (pixels + 4), 2) - 1.0 / 64, 0) + 0.5 * fmax(0.93 * cut - seen[3], 0) / pool[3];
-    if (radius < 1)
+    if (pooled < 1)
         share = 0;
     /* Normal equations of the plane, in space: the slope has no part along the direction, where second is 0. */
     double matrix[3][4], slope[3] = {0}, confidence = fmin(seen[3] / cut, 1);
