@@ -569,10 +569,10 @@ static double lobe_reach(const struct filter *filter, double phong)
     return fmin(fmin(reach, filter->options->max_angle_rad < pi / 2 ? limit * limit : INFINITY), ninety_degrees);
 }
 
-/* The sum of a pixel's weights where nothing is hidden, steradians. */
-static double whole_lobe(const struct filter *filter, int x, int y)
+/* The sum of the weights of a lobe of lobe_exponent() where nothing is hidden, steradians. */
+static double whole_lobe(const struct filter *filter, double exponent)
 {
-    return filter->whole * lobe_integral(lobe_exponent(filter, x, y), filter->floor);
+    return filter->whole * lobe_integral(exponent, filter->floor);
 }
 
 /* A lobe that is narrow for the mirror's curvature holds few pixels, n, and chance errs more there than what should be
@@ -580,10 +580,10 @@ static double whole_lobe(const struct filter *filter, int x, int y)
  * from the others. */
 static struct filter_help help_of_pixel(const struct filter *filter, int x, int y, double seen)
 {
-    const double few = pool_pixels / (pixels_in_lobe(filter, x, y) + pool_pixels);
-    const double least_seen = (1 - missing_least) * whole_lobe(filter, x, y);
     if (filter->options->without & FILTER_WITHOUT_POOL || image_row(&filter->radius, 0, y)[x] < 1)
         return (struct filter_help){0};
+    const double few = pool_pixels / (pixels_in_lobe(filter, x, y) + pool_pixels);
+    const double least_seen = (1 - missing_least) * whole_lobe(filter, lobe_exponent(filter, x, y));
     return (struct filter_help){.share = fmax(few * few - pool_share_least, 0),
                                 .missing = missing_share * fmax(least_seen - seen, 0)};
 }
@@ -681,7 +681,7 @@ static void pixel_write_best(struct filter *filter, int x, int y, int l, const s
     if (help.missing > 0 && pool->value[3][l] > 0)
         share += help.missing / pool->value[3][l];
     double phong = lobe_exponent(filter, x, y), weight = seen->value[FILTER_MOMENT_1][l];
-    double confidence = fmin(weight / whole_lobe(filter, x, y), 1);
+    double confidence = fmin(weight / whole_lobe(filter, phong), 1);
     const bool fit = weight > 0 && !(filter->options->without & FILTER_WITHOUT_FIT);
     const double even = evenness(seen, l);
     for (int i = 0; i < 3; i++)
