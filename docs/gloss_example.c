@@ -1,5 +1,5 @@
 /* cc gloss_example.c $(pkg-config --cflags --libs libgloss): a mirror under a sky that is black on the left and white on
- * the right, at exponent 500. */
+ * the right, at exponent 200. */
 #include <gloss.h>
 #include <stdio.h>
 
@@ -19,7 +19,7 @@ int main(void)
                                         .position = {x, zero, z}, .endpoint = {direction_x, up, z, zero}};
     char message[256];
     float *const glossy[3] = {red, green, blue};
-    if (gloss_filter(&planes, &(struct gloss_options){.phong = 500}, glossy, message, sizeof message))
+    if (gloss_filter(&planes, &(struct gloss_options){.phong = 200}, glossy, message, sizeof message))
         return fprintf(stderr, "%s\n", message), 1;
     for (int i = 0; i < WIDTH; i += 4)
         printf("%.3f ", (double)red[SIZE / 2 + i]);

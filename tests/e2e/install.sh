@@ -77,7 +77,7 @@ example() {
     awk '{
         for (i = 2; i <= NF; i++) {
             if ($i < $(i - 1)) exit 1
-            soft += $i > 0.01 && $i < 0.99
+            soft += $i > 0.05 && $i < 0.95
         }
         exit !($1 == 0 && $NF == 1 && soft > 1)
     }' "$scratch/out" || { cat "$scratch/out"; return 1; }
