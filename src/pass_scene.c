@@ -7,25 +7,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What povgloss_end puts last into every finish. Later items of a finish override earlier ones; povgloss_phong is 0 or
+/* What povgloss_finish puts last into every finish. Later items of a finish override earlier ones; povgloss_phong is 0 or
  * more when the finish is glossy, povgloss_reflects is 1 when it names a reflection of its own. A finish without either
  * keeps what it has. */
+#define DARK "ambient 0 emission 0 diffuse 0 specular 0 phong 0 irid { 0 }"
 static const char end_base[] = "#if (povgloss_phong >= 0) reflection { 0 } #end";
-static const char end_mirror[] = "povgloss_dark()\n"
+static const char end_mirror[] = DARK "\n"
                                  "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
                                  "exponent 1 metallic 0 }\n"
                                  "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
-static const char end_haze[] = "povgloss_dark()\n"
+static const char end_haze[] = DARK "\n"
                                "  #if (povgloss_phong >= 0 | povgloss_reflects) reflection { 0 } #end";
 /* The same where a glossy finish keeps its reflectivity: any other reflects something next to white (to the power
  * 1e-6), in the haze as well. */
 #define PLAIN_WHITE "#else #if (povgloss_reflects) reflection_exponent 1e6 #end #end"
-static const char end_reflection[] = "povgloss_dark()\n  #if (povgloss_phong >= 0) reflection_exponent 1\n  " PLAIN_WHITE;
-static const char end_haze_of_reflection[] = "povgloss_dark()\n  #if (povgloss_phong >= 0) reflection { 0 }\n  " PLAIN_WHITE;
+static const char end_reflection[] = DARK "\n  #if (povgloss_phong >= 0) reflection_exponent 1\n  " PLAIN_WHITE;
+static const char end_haze_of_reflection[] = DARK "\n  #if (povgloss_phong >= 0) reflection { 0 }\n  " PLAIN_WHITE;
 /* The sky is next to black, as a total reflection shows it, which isn't glossy. POV-Ray takes what a finish reflects to
  * the power 1/exponent: 20 makes one half of the sky, 0.001 nothing, and leaves the reflectivity for a later
  * Gloss(). */
-static const char end_reflectance[] = "povgloss_dark()\n"
+static const char end_reflectance[] = DARK "\n"
                                       "  #if (povgloss_phong >= 0) reflection_exponent 20\n"
                                       "  #else #if (povgloss_reflects) reflection_exponent 0.001 #end #end";
 
@@ -37,7 +38,7 @@ static const char mirror_exponent[] =
 
 /* The sky of the camera's own rays, over that of mirrored ones. */
 #define BLACK_SKY \
-    "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { povgloss_dark() reflection { 0 } } no_reflection no_shadow }\n"
+    "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { " DARK " reflection { 0 } } no_reflection no_shadow }\n"
 #define SKY(colour) BLACK_SKY "sky_sphere { pigment { rgb " colour " } }\n"
 static const char black_sky[] = BLACK_SKY;
 static const char sky_half[] = SKY("pow(0.5, 20)");
@@ -208,32 +209,12 @@ static enum result add_state_macros(const struct scene *scene, const struct scen
         "#declare povgloss_reflects = 0; #declare povgloss_given = -1;\n"
         "#declare povgloss_default_state = povgloss_none; #declare povgloss_value = 0;\n"
         "#ifdef (povgloss_plain) #undef povgloss_plain #end\n"
-        "#macro povgloss_layer() #declare povgloss_lower = 1; #declare povgloss_texture = povgloss_default_state; #end\n"
-        "#macro povgloss_upper_layer()\n"
-        "  #declare povgloss_lower = povgloss_last.t; #declare povgloss_texture = povgloss_default_state;\n"
-        "#end\n"
         "#macro povgloss_set_default(povgloss_c)\n"
         "  #if " IS_CLEAR("povgloss_c") " #default { finish { povgloss_plain } }\n"
         "  #else #default { finish { povgloss_shiny } } #end\n"
         "#end\n"
-        "#macro povgloss_layered()\n"
-        "  #declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z,\n"
-        "    min(povgloss_lower, povgloss_texture.t)>;\n"
-        "  #declare povgloss_last = povgloss_texture;\n"
-        "#end\n"
-        "#macro povgloss_begin(povgloss_of)\n"
-        "  #declare povgloss_state = povgloss_of; #declare povgloss_reflects = 0; #declare povgloss_phong = -1;\n"
-        "  #declare povgloss_begun = povgloss_of.x;\n"
-        "#end\n"
-        "#macro povgloss_of_finish(povgloss_s)\n"
-        "  #declare povgloss_state = <povgloss_s.x, povgloss_s.y, povgloss_s.z, povgloss_state.t>;\n"
-        "#end\n"
         "#macro povgloss_set(povgloss_x, povgloss_y, povgloss_z)\n"
         "  #declare povgloss_state = <povgloss_x, povgloss_y, povgloss_z, povgloss_state.t>;\n"
-        "#end\n"
-        "#macro povgloss_reflection(povgloss_v)\n"
-        "  #declare povgloss_reflects = 1;\n"
-        "  #declare povgloss_state = <povgloss_state.x, povgloss_v, povgloss_state.z, povgloss_state.t>;\n"
         "#end\n"
         "#macro povgloss_phong_size()\n"
         "  povgloss_set(povgloss_state.x, povgloss_state.y, povgloss_size) phong_size povgloss_size\n"
@@ -245,13 +226,8 @@ static enum result add_state_macros(const struct scene *scene, const struct scen
     if (!result)
         result = buffer_printf(text, err,
                                "#declare povgloss_all = %.9g; #declare povgloss_automatic = %d;\n"
-                               "#macro povgloss_exponent(povgloss_s) " EXPONENT("povgloss_s") " #end\n"
-                               "#macro povgloss_of_texture(povgloss_s) #declare povgloss_texture = povgloss_s; %s #end\n"
-                               "#macro povgloss_of_material(povgloss_s) #declare povgloss_last = povgloss_s; %s #end\n",
-                               choice->all ? fmin(choice->all_exponent, 1e30) : -1, choice->automatic,
-                               part->placed ? "povgloss_count(<povgloss_s.x, povgloss_s.y, povgloss_s.z, "
-                                              "min(povgloss_lower, povgloss_s.t)>)" : "",
-                               part->placed ? "povgloss_count(povgloss_s)" : "");
+                               "#macro povgloss_exponent(povgloss_s) " EXPONENT("povgloss_s") " #end\n",
+                               choice->all ? fmin(choice->all_exponent, 1e30) : -1, choice->automatic);
     if (!result && part->placed)
         result = buffer_add_text(text,
                                  "#declare povgloss_counts = <0, 0, 0, 0>;\n"
@@ -321,7 +297,6 @@ static enum result add_finish_macros(const struct scene *scene, const struct pas
 {
     enum result result = buffer_add_text(
         text,
-        "#macro povgloss_dark() ambient 0 emission 0 diffuse 0 specular 0 phong 0 irid { 0 } #end\n"
         "#declare povgloss_pigment = pigment { rgb 0 };\n"
         "#macro povgloss_hide(povgloss_s)\n"
         "  #if (" EXPONENT("povgloss_s") " >= 0 & (povgloss_mirrors | " IS_CLEAR("povgloss_s.t") ")\n"
@@ -353,10 +328,8 @@ static enum result add_finish_macros(const struct scene *scene, const struct pas
                                "  %s\n"
                                "  #if (povgloss_phong >= povgloss_maps_from) emission 1 crand 0 #end\n"
                                "#end\n"
-                               "#macro povgloss_end() povgloss_finish(0) #end\n"
-                               "#macro povgloss_end_of_name() povgloss_finish(1) #end\n"
                                "#macro povgloss_enter_default()\n"
-                               "  #ifdef (povgloss_plain) povgloss_set_default(1) #end povgloss_layer()\n"
+                               "  #ifdef (povgloss_plain) povgloss_set_default(1) #end " STATE_LAYER "\n"
                                "  #declare povgloss_last = povgloss_default_state;\n"
                                "#end\n"
                                "#macro povgloss_leave_default()\n"
@@ -365,7 +338,7 @@ static enum result add_finish_macros(const struct scene *scene, const struct pas
                                "  #end\n"
                                "  #declare povgloss_default_state = <povgloss_last.x, povgloss_last.y, povgloss_last.z, 0>;\n"
                                "  #declare povgloss_plain = finish { };\n"
-                               "  #declare povgloss_shiny = finish { povgloss_begin(povgloss_last) povgloss_end() };\n"
+                               "  #declare povgloss_shiny = finish { " STATE_FINISH("povgloss_last") " povgloss_finish(0) };\n"
                                "  povgloss_set_default(0)\n"
                                "#end\n"
                                "#macro povgloss_of_default() #ifdef (povgloss_plain) povgloss_plain #end #end\n",
@@ -430,7 +403,7 @@ static enum result add_finish_macros(const struct scene *scene, const struct pas
                                part->placed_once ? "#if (povgloss_depth = 0) povgloss_modifiers() } #end" : "",
                                part->placed_once ? "#if (povgloss_depth = 0) union { povgloss_nothing() #end" : "");
     if (!result && !is_base(part))
-        result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { povgloss_dark() } }\n", err);
+        result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { " DARK " } }\n", err);
     return result;
 }
 

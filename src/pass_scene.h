@@ -48,7 +48,7 @@ struct scene_part {
     int copy; /* enum scene_copy, or -1 */
     const char *modifiers;
     bool coded;             /* the position-coding texture on the union */
-    const char *finish_end; /* what povgloss_end puts last into every finish of a marked copy */
+    const char *finish_end; /* what povgloss_finish puts last into every finish of a marked copy */
     const char *placed;     /* what povgloss_place makes of povgloss_object, where it is transparent without gloss */
     bool placed_once;       /* that is the only copy of it: it is outside of the union */
 };

@@ -29,7 +29,7 @@ struct rules {
     const char *name;
     enum statements statements;
     bool lights;
-    bool marks;           /* povgloss_begin and povgloss_end in finishes */
+    bool marks;           /* states of finishes, and povgloss_finish at their ends */
     bool pigments;        /* pigments become povgloss_pigment, or the parts of it that hide what is behind them */
     bool places;          /* transparent objects of the top level are placed by povgloss_place */
     bool coded;           /* textures are taken off */
@@ -281,9 +281,10 @@ static enum result hoist_subscripts(struct writer *writer, int before, int name,
 }
 
 /* A finish or texture that begins with a declared name takes over that one's state (pass_scene.c), which is kept in a
- * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows), by the macro;
- * for an element of an array it is in an array of the same size. */
-static enum result inherit_state(struct writer *writer, int token, const char *macro, struct error *err)
+ * variable povgloss_of_N beside each name (N being its index, as names may be as long as POV-Ray allows); for an element
+ * of an array it is in an array of the same size. The state goes into `variable`, and `then` is said after it. */
+static enum result inherit_state(struct writer *writer, int token, const char *variable, const char *then,
+                                 struct error *err)
 {
     static const char index[] = "povgloss_index";
     const struct scene_file *file = writer->file;
@@ -300,8 +301,8 @@ static enum result inherit_state(struct writer *writer, int token, const char *m
     if (!result)
         result = add_subscripts(writer, token, index, &element, err);
     if (!result)
-        result = buffer_printf(&writer->out, err, " #ifdef (%.*s) %s(%.*s) #end", (int)element.size, element.data, macro,
-                               (int)element.size, element.data);
+        result = buffer_printf(&writer->out, err, " #ifdef (%1$.*2$s) #declare %3$s = %1$.*2$s; %4$s#end", element.data,
+                               (int)element.size, variable, then);
     buffer_free(&element);
     return result;
 }
@@ -468,13 +469,18 @@ static enum result begin_finish(struct writer *writer, int token, struct error *
                                                                               : "povgloss_default_state";
     enum result result = insert_after(writer, token + 1, "", err);
     if (!result)
-        result = buffer_printf(&writer->out, err, " povgloss_begin(%s) ", state);
+        result = buffer_printf(&writer->out, err, " " STATE_FINISH("%s") " ", state);
     bool value = is_mark(file, token - 1, "=");
     if (!result && value && !has_fact(file, token + 2, NAME_DECLARED) &&
         !has_fact(file, token + 2, NAME_PARAMETER))
         result = buffer_add_text(&writer->out, "povgloss_of_default() ", err);
+    char *pigment = NULL;
     if (!result)
-        result = inherit_state(writer, token + 2, "povgloss_of_finish", err);
+        result = text_printf(&pigment, err,
+                             "#declare povgloss_state = <povgloss_state.x, povgloss_state.y, povgloss_state.z, %s.t>; ", state);
+    if (!result)
+        result = inherit_state(writer, token + 2, "povgloss_state", pigment, err);
+    free(pigment);
     /* An element of a filled array comes unmarked. */
     if (!result && has_fact(writer->file, token + 2, NAME_FILLED_ARRAY))
         result = buffer_add_text(&writer->out, " #declare povgloss_reflects = 1; ", err);
@@ -491,7 +497,7 @@ static enum result write_finish(struct writer *writer, int token, int last, bool
     if (!result)
         result = write_tokens(writer, token + 2, last, err);
     if (!result)
-        result = insert_before(writer, last, named ? " povgloss_end_of_name() " : " povgloss_end() ", err);
+        result = insert_before(writer, last, named ? " povgloss_finish(1) " : " povgloss_finish(0) ", err);
     if (!result && cover >= 0 && writer->rules->covers)
         result = insert_after(writer, last, " povgloss_hide(povgloss_last) ", err);
     return result;
@@ -509,10 +515,11 @@ static const char *const finish_carriers[] = {"finish", "texture", "texture_map"
 
 static enum result begin_texture(struct writer *writer, int token, bool upper, struct error *err)
 {
-    enum result result = insert_after(writer, token + 1, upper ? " povgloss_upper_layer() " : " povgloss_layer() ", err);
+    enum result result = insert_after(writer, token + 1, upper ? " " STATE_UPPER_LAYER " " : " " STATE_LAYER " ", err);
     if (!result)
-        result = inherit_state(writer, token + 2, "povgloss_of_texture", err);
-    return result ? result : buffer_add_text(&writer->out, " povgloss_layered() ", err);
+        result = inherit_state(writer, token + 2, "povgloss_texture",
+                               writer->rules->places ? STATE_LAYERED " povgloss_count(povgloss_texture) " : "", err);
+    return result ? result : buffer_add_text(&writer->out, " " STATE_LAYERED " ", err);
 }
 
 static enum result write_texture(struct writer *writer, int token, int last, bool upper, struct error *err)
@@ -524,9 +531,10 @@ static enum result write_texture(struct writer *writer, int token, int last, boo
         result = write_tokens(writer, token + 2, last, err);
     if (!result && rules->marks && has_fact(writer->file, token + 2, NAME_FILLED_ARRAY))
         result = insert_before(
-            writer, last, " finish { povgloss_begin(povgloss_none) #declare povgloss_reflects = 1; povgloss_end() } ", err);
+            writer, last, " finish { " STATE_FINISH("povgloss_none") " #declare povgloss_reflects = 1; povgloss_finish(0) } ",
+            err);
     if (!result && rules->marks && writer->given && plain && !mentions(writer->file, token + 2, last, finish_carriers))
-        result = insert_before(writer, last, " finish { povgloss_begin(povgloss_texture) povgloss_end() } ", err);
+        result = insert_before(writer, last, " finish { " STATE_FINISH("povgloss_texture") " povgloss_finish(0) } ", err);
     if (!result && rules->marks && rules->covers && cover && plain)
         result = insert_before(writer, last, " povgloss_hide(povgloss_last) ", err);
     /* Nothing shows through an opaque layer, but a layer that isn't glossy must not hide a glossy one below. */
@@ -709,7 +717,7 @@ static enum result write_coded_material(struct writer *writer, int token, int la
     enum result result =
         insert_after(writer, token + 1, " povgloss_no_interior() #declare povgloss_last = povgloss_none; ", err);
     if (!result)
-        result = inherit_state(writer, token + 2, "povgloss_of_material", err);
+        result = inherit_state(writer, token + 2, "povgloss_last", writer->rules->places ? "povgloss_count(povgloss_last) " : "", err);
     if (!result && name >= 0)
         result = buffer_printf(&writer->out, err,
                                " #ifdef (povgloss_interior_of_%d) #declare povgloss_interior = interior { "
@@ -767,7 +775,7 @@ static enum result write_material(struct writer *writer, int token, int last, st
 {
     enum result result = insert_after(writer, token + 1, " #declare povgloss_last = povgloss_none; ", err);
     if (!result)
-        result = inherit_state(writer, token + 2, "povgloss_of_material", err);
+        result = inherit_state(writer, token + 2, "povgloss_last", writer->rules->places ? "povgloss_count(povgloss_last) " : "", err);
     return result ? result : write_tokens(writer, token + 2, last, err);
 }
 
@@ -1223,13 +1231,13 @@ static enum result write_block(struct writer *writer, int token, int *next, stru
     return rules->places && !filling ? add_part_counts(writer, token, err) : RESULT_OK;
 }
 
-/* What says how a finish reflects: noted for povgloss_end; with automatic gloss the lobe of the highlight, too. */
+/* What says how a finish reflects: noted for povgloss_finish; with automatic gloss the lobe of the highlight, too. */
 static enum result write_finish_item(struct writer *writer, int token, int *next, struct error *err)
 {
     const struct scene_file *file = writer->file;
     if (is_word(file, token, "reflection"))
         return insert_before(writer, token,
-                             is_zero(file, token + 1) ? "povgloss_reflection(0) " : "povgloss_reflection(1) ", err);
+                             is_zero(file, token + 1) ? STATE_REFLECTION("0") " " : STATE_REFLECTION("1") " ", err);
     if (!writer->scene->choice->automatic || !in_list(file, token, highlight_words))
         return RESULT_OK;
     int end = value_end(file, token + 1);

@@ -2,7 +2,7 @@
  *
  * A copy is the user's text with some blocks replaced, line by line where it was, so that a message of POV-Ray about a
  * copy names the line of the user's own file. What replaces them refers to names that the pass's wrapper declares
- * (pass_scene.c): the macros povgloss_begin and povgloss_end around the items of every finish, povgloss_pigment,
+ * (pass_scene.c): the variables of states below, the macro povgloss_finish at the end of every finish, povgloss_pigment,
  * povgloss_modifiers (those of the union around), povgloss_nothing (an object, for unions that would be empty) and,
  * where a camera has an aperture, povgloss_camera at its end, and povgloss_photons at the end of the photons of
  * global_settings.
@@ -25,6 +25,22 @@ enum scene_copy {
     SCENE_COPY_DISCOVERY,   /* the scene itself; writes what it includes and its assumed_gamma to SCENE_DISCOVERY_LOG */
     SCENE_COPY_COUNT,
 };
+
+/* How a copy keeps the states of its textures and finishes (pass_scene.c tells what a state is): where a texture begins, and
+ * one that is a further layer; after the name that it may begin with; where a finish begins, in the state `of`; where it
+ * reflects, or not. Statements in place of macros: at each call from another file POV-Ray opens a macro's file anew. */
+#define STATE_LAYER "#declare povgloss_lower = 1; #declare povgloss_texture = povgloss_default_state;"
+#define STATE_UPPER_LAYER \
+    "#declare povgloss_lower = povgloss_last.t; #declare povgloss_texture = povgloss_default_state;"
+#define STATE_LAYERED \
+    "#declare povgloss_texture = <povgloss_texture.x, povgloss_texture.y, povgloss_texture.z, " \
+    "min(povgloss_lower, povgloss_texture.t)>; #declare povgloss_last = povgloss_texture;"
+#define STATE_FINISH(of) \
+    "#declare povgloss_state = " of "; #declare povgloss_reflects = 0; #declare povgloss_phong = -1; " \
+    "#declare povgloss_begun = povgloss_state.x;"
+#define STATE_REFLECTION(reflects) \
+    "#declare povgloss_reflects = 1; " \
+    "#declare povgloss_state = <povgloss_state.x, " reflects ", povgloss_state.z, povgloss_state.t>;"
 
 /* Writes one copy of all files into the folder. RESULT_DATA, with file and line, for a construct that can't be
  * taken. */

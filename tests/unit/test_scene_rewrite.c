@@ -95,7 +95,12 @@ static void assert_rewritings(const struct rewriting *cases, size_t count)
 #define CODED SCENE_COPY_CODED
 
 #define OPEN " union { povgloss_nothing()"
-#define TEXTURE "texture { povgloss_layer() povgloss_layered() "
+#define FINISH(of) "finish { " STATE_FINISH(of) " "
+#define INHERIT_FINISH(state) \
+    "#ifdef (" state ") #declare povgloss_state = " state "; #declare povgloss_state = <povgloss_state.x, " \
+    "povgloss_state.y, povgloss_state.z, povgloss_default_state.t>; #end"
+#define TEXTURE "texture { " STATE_LAYER " " STATE_LAYERED " "
+#define INHERIT_TEXTURE(state) "#ifdef (" state ") #declare povgloss_texture = " state "; #end"
 
 static void copy__statements_of_the_top_level__union_broken_dropped_or_kept(void **state)
 {
@@ -260,14 +265,14 @@ static void copy__finishes__marked(void **state)
     (void)state;
     static const struct rewriting cases[] = {
         {BASE, "sphere { 0, 1 finish { phong 1 } }",
-         "sphere { 0, 1 finish { povgloss_begin(povgloss_default_state) phong 1 povgloss_end() } }"},
-        {BASE, "sphere { 0, 1 finish { } }", "sphere { 0, 1 finish { povgloss_begin(povgloss_default_state) povgloss_end() } }"},
+         "sphere { 0, 1 " FINISH("povgloss_default_state") "phong 1 povgloss_finish(0) } }"},
+        {BASE, "sphere { 0, 1 finish { } }", "sphere { 0, 1 " FINISH("povgloss_default_state") "povgloss_finish(0) } }"},
         {MIRROR, "sphere { 0, 1 texture { finish { reflection 0.5 Gloss(9) } } }",
-         "sphere { 0, 1 " TEXTURE "finish { povgloss_begin(povgloss_texture) povgloss_reflection(1) reflection 0.5 "
-         "Gloss(9) povgloss_end() } } }"},
+         "sphere { 0, 1 " TEXTURE FINISH("povgloss_texture") STATE_REFLECTION("1") " reflection 0.5 "
+         "Gloss(9) povgloss_finish(0) } } }"},
         {REFLECTANCE, "sphere { 0, 1 finish { reflection { 0.1, 1 fresnel } } }",
-         "sphere { 0, 1 finish { povgloss_begin(povgloss_default_state) povgloss_reflection(1) reflection { 0.1, 1 fresnel } "
-         "povgloss_end() } }"},
+         "sphere { 0, 1 " FINISH("povgloss_default_state") STATE_REFLECTION("1") " reflection { 0.1, 1 fresnel } "
+         "povgloss_finish(0) } }"},
         {PLAIN, "sphere { 0, 1 finish { reflection 1 Gloss(9) } }", NULL},
     };
     ASSERT_REWRITINGS(cases);
@@ -279,12 +284,12 @@ static void copy__chosen_names__given_their_exponent(void **state)
     static struct gloss_name names[] = {{"N", 300}, {"M", INFINITY}};
     static const struct rewriting cases[] = {
         {BASE, "#declare N = finish { F } x",
-         "#declare N = finish { #declare povgloss_given = 300; povgloss_begin(povgloss_default_state) "
-         "povgloss_of_default() F povgloss_end_of_name() "
+         "#declare N = finish { #declare povgloss_given = 300; " STATE_FINISH("povgloss_default_state") " "
+         "povgloss_of_default() F povgloss_finish(1) "
          "#declare povgloss_given = -1; } #declare povgloss_of_0 = povgloss_last; x"},
         {BASE, "#declare M = material { texture { T } } x",
          "#declare M = material { #declare povgloss_given = 1e+30; #declare povgloss_last = povgloss_none; " TEXTURE
-         "T finish { povgloss_begin(povgloss_texture) povgloss_end() } } #declare povgloss_given = -1; } "
+         "T " FINISH("povgloss_texture") "povgloss_finish(0) } } #declare povgloss_given = -1; } "
          "#declare povgloss_of_0 = povgloss_last; x"},
         {PLAIN, "#declare N = finish { F }", NULL},
     };
@@ -300,15 +305,15 @@ static void copy__highlights__noted_for_automatic_gloss(void **state)
     (void)state;
     static const struct rewriting automatic[] = {
         {BASE, "finish { phong 1 phong_size 4*S reflection 0 }",
-         "finish { povgloss_begin(povgloss_default_state) phong 1 #declare povgloss_size = 4*S; povgloss_phong_size() "
-         "povgloss_reflection(0) reflection 0 povgloss_end() }"},
+         FINISH("povgloss_default_state") "phong 1 #declare povgloss_size = 4*S; povgloss_phong_size() "
+         STATE_REFLECTION("0") " reflection 0 povgloss_finish(0) }"},
         {MIRROR, "finish { specular 1 roughness\n1/60 }",
-         "finish { povgloss_begin(povgloss_default_state) specular 1 #declare povgloss_size =\n1/60; povgloss_roughness() "
-         "povgloss_end() }"},
+         FINISH("povgloss_default_state") "specular 1 #declare povgloss_size =\n1/60; povgloss_roughness() "
+         "povgloss_finish(0) }"},
         {CODED, "#declare F = finish { phong_size 9 }", NULL},
     };
     static const struct rewriting else_plain[] = {
-        {BASE, "finish { phong_size 9 }", "finish { povgloss_begin(povgloss_default_state) phong_size 9 povgloss_end() }"},
+        {BASE, "finish { phong_size 9 }", FINISH("povgloss_default_state") "phong_size 9 povgloss_finish(0) }"},
     };
     chosen.automatic = true;
     ASSERT_REWRITINGS(automatic);
@@ -322,17 +327,17 @@ static void copy__declared_finishes_and_textures__hand_their_gloss_on(void **sta
     (void)state;
     static const struct rewriting cases[] = {
         {BASE, "#declare X = 1; #declare F = finish { phong 1 }\nsphere { 0, X finish { F } }",
-         "#declare X = 1; #declare F = finish { povgloss_begin(povgloss_default_state) povgloss_of_default() phong 1 "
-         "povgloss_end_of_name() } "
+         "#declare X = 1; #declare F = " FINISH("povgloss_default_state") "povgloss_of_default() phong 1 "
+         "povgloss_finish(1) } "
          "#declare povgloss_of_1 = povgloss_last; \n"
-         "sphere { 0, X finish { povgloss_begin(povgloss_default_state) F #ifdef (povgloss_of_1) povgloss_of_finish(povgloss_of_1) #end "
-         "povgloss_end() } }"},
+         "sphere { 0, X " FINISH("povgloss_default_state") "F " INHERIT_FINISH("povgloss_of_1") " "
+         "povgloss_finish(0) } }"},
         {BASE, "#declare T = texture { A };\nsphere { 0, 1 texture { T } }",
          "#declare T = " TEXTURE "A }; #declare povgloss_of_0 = povgloss_last; \n"
-         "sphere { 0, 1 texture { povgloss_layer() T #ifdef (povgloss_of_0) povgloss_of_texture(povgloss_of_0) #end "
-         "povgloss_layered() } }"},
+         "sphere { 0, 1 texture { " STATE_LAYER " T " INHERIT_TEXTURE("povgloss_of_0") " "
+         STATE_LAYERED " } }"},
         {BASE, "#declare A[0] = finish { phong 1 }",
-         "#declare A[0] = finish { povgloss_begin(povgloss_default_state) povgloss_of_default() phong 1 povgloss_end() }"},
+         "#declare A[0] = " FINISH("povgloss_default_state") "povgloss_of_default() phong 1 povgloss_finish(0) }"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -387,9 +392,9 @@ static void copy__arrays_of_textures__take_no_directives(void **state)
         {MIRROR, "#declare F = array[2] { finish { reflection 1 }, finish { diffuse 1 } }", NULL},
         {CODED, "#declare F = array[1] { texture { pigment { P } } }", NULL},
         {BASE, "#declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { F[0] } }",
-         "#declare povgloss_of_0 = array[1] #declare F = array[1] { finish { phong 1 } } sphere { 0, 1 finish { "
-         "povgloss_begin(povgloss_default_state) F[0] #ifdef (povgloss_of_0[0]) povgloss_of_finish(povgloss_of_0[0]) #end "
-         "#declare povgloss_reflects = 1; povgloss_end() } }"},
+         "#declare povgloss_of_0 = array[1] #declare F = array[1] { finish { phong 1 } } sphere { 0, 1 "
+         FINISH("povgloss_default_state") "F[0] " INHERIT_FINISH("povgloss_of_0[0]") " "
+         "#declare povgloss_reflects = 1; povgloss_finish(0) } }"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -448,8 +453,8 @@ static void coded__textures_that_may_be_clear__declared_in_front(void **state)
         {CODED, "#declare T = texture { pigment { rgbt 1 } } sphere { 0, 1 texture { T } }",
          "#declare T = " TEXTURE COVER("pigment { rgbt 1 }", "texture")
          "} #declare povgloss_of_0 = povgloss_last; #ifdef (povgloss_interior) #declare povgloss_interior_of_0 = interior { "
-         "povgloss_interior } #end sphere { 0, 1 #declare povgloss_dropped = texture { povgloss_layer() T #ifdef "
-         "(povgloss_of_0) povgloss_of_texture(povgloss_of_0) #end povgloss_layered() }; povgloss_coded(povgloss_last.t) }"},
+         "povgloss_interior } #end sphere { 0, 1 #declare povgloss_dropped = texture { " STATE_LAYER " T "
+         INHERIT_TEXTURE("povgloss_of_0") " " STATE_LAYERED " }; povgloss_coded(povgloss_last.t) }"},
     };
     ASSERT_REWRITINGS(cases);
 }
@@ -483,8 +488,8 @@ static void copy__declared_layers__declared_one_by_one(void **state)
     (void)state;
     static const struct rewriting cases[] = {
         {BASE, "#declare T = texture { A }\ntexture { B }; x",
-         "#declare povgloss_layer_0 = " TEXTURE "A }; \n#declare povgloss_layer_1 = texture { povgloss_upper_layer() "
-         "povgloss_layered() B }; #declare T = texture { povgloss_layer_0 } texture { povgloss_layer_1 } ; "
+         "#declare povgloss_layer_0 = " TEXTURE "A }; \n#declare povgloss_layer_1 = texture { " STATE_UPPER_LAYER " "
+         STATE_LAYERED " B }; #declare T = texture { povgloss_layer_0 } texture { povgloss_layer_1 } ; "
          "#declare povgloss_of_0 = povgloss_last; x"},
         {PLAIN, "#declare T = texture { A } texture { B }", NULL},
         {CODED, "#declare T = texture { A } texture { B }", NULL},
