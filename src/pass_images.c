@@ -244,48 +244,39 @@ static void fill_exponents(struct gbuffer *gbuffer, double single, const struct 
         }
 }
 
-/* Whether pixel (x, y) and all those about it show one glossy surface: a shifts by about as much to either side. */
-static bool is_inside_surface(const struct gbuffer *gbuffer, int x, int y)
+/* Of an antialiased pixel of the specular pass, the mean of 4 rays and one in its middle, some rays met no glossy surface
+ * and brought the marker: the fewest or most, for a negative or positive one, whose subtraction leaves nothing negative but
+ * what rounding and negative lights do. The others' mean is L0. The ray in the middle is one of them where a pixel is
+ * glossy. */
+static void separate_marked(double radiance[3], double marker)
 {
-    const double most_change = 0.5;
-    const struct image *phong = &gbuffer->phong;
-    for (int v = y - 1; v <= y + 1; v++)
-        for (int u = x - 1; u <= x + 1; u++)
-            if (u >= 0 && u < phong->width && v >= 0 && v < phong->height && !(image_row(phong, 0, v)[u] > 0))
-                return false;
-    for (int n = 0; n < 2; n++) {
-        const int dx = n == 0, dy = n == 1;
-        double shift[2] = {0}, change = 0;
-        if (x - dx < 0 || y - dy < 0 || x + dx >= phong->width || y + dy >= phong->height)
-            continue;
-        for (int axis = 0; axis < 3; axis++) {
-            double here = (double)image_row(&gbuffer->position, axis, y)[x];
-            double before = here - (double)image_row(&gbuffer->position, axis, y - dy)[x - dx];
-            double after = (double)image_row(&gbuffer->position, axis, y + dy)[x + dx] - here;
-            shift[0] += before * before;
-            shift[1] += after * after;
-            change += (after - before) * (after - before);
-        }
-        if (change > most_change * most_change * fmax(shift[0], shift[1]))
-            return false;
+    enum { RAYS = 5 };
+    const double negative = 0.25; /* of the marker */
+    double marked = marker < 0 ? 0 : RAYS - 1;
+    for (int channel = 0; channel < 3; channel++) {
+        double most = RAYS * radiance[channel] / marker;
+        marked = marker < 0 ? fmax(marked, ceil(most - negative)) : fmin(marked, floor(most + negative));
     }
-    return true;
+    marked = fmin(fmax(marked, 0), RAYS - 1);
+    for (int channel = 0; channel < 3 && marked > 0; channel++)
+        radiance[channel] = fmax(0, (RAYS * radiance[channel] - marked * marker) / (RAYS - marked));
 }
 
-/* L0 becomes the mean over the pixel, but at the borders of surfaces: there the pixel shows something else, too. */
-static enum result take_means(const struct pass_images *images, struct gbuffer *gbuffer, struct error *err)
+/* An antialiased specular pass becomes L0, the mean over what is glossy of each pixel. */
+static void take_means(const struct pass_images *images, struct gbuffer *gbuffer)
 {
-    struct image means = {0};
-    enum result result = read_beside_specular(images, PASS_SPECULAR_MEAN, &gbuffer->specular, &means, err);
-    for (int y = 0; !result && y < means.height; y++)
-        for (int x = 0; x < means.width; x++) {
-            if (!is_inside_surface(gbuffer, x, y))
+    const double gamma = images->scene->working_gamma, marker = pass_marker(images->scene);
+    for (int y = 0; y < gbuffer->specular.height; y++)
+        for (int x = 0; x < gbuffer->specular.width; x++) {
+            double radiance[3];
+            if (!(image_row(&gbuffer->phong, 0, y)[x] > 0))
                 continue;
             for (int channel = 0; channel < 3; channel++)
-                image_row(&gbuffer->specular, channel, y)[x] = image_row(&means, channel, y)[x];
+                radiance[channel] = gamma_encode(gamma, (double)image_row(&gbuffer->specular, channel, y)[x]);
+            separate_marked(radiance, marker);
+            for (int channel = 0; channel < 3; channel++)
+                image_row(&gbuffer->specular, channel, y)[x] = (float)gamma_decode(gamma, radiance[channel]);
         }
-    image_free(&means);
-    return result;
 }
 
 /* A weighted specular pass holds L0 as the surfaces reflect it: divided by their reflectivity, mixed alike, it is L0
@@ -535,7 +526,7 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
         if (pass_weights_specular(images->scene))
             result = divide_specular(images, gbuffer, err);
         if (!result && images->means)
-            result = take_means(images, gbuffer, err);
+            take_means(images, gbuffer);
         gbuffer->working_gamma = images->scene->working_gamma == 1 ? 0 : (float)images->scene->working_gamma;
         if (images->camera)
             set_eye(images->camera, gbuffer);

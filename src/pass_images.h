@@ -13,7 +13,7 @@ struct pass_images {
     const char *name;   /* of the scene, for messages */
     const struct scene *scene;
     int subsample;
-    bool means; /* the specular-mean pass is there */
+    bool means; /* the specular pass is antialiased */
     bool rays;  /* with those of the mirror */
     int margin_x, margin_y; /* in which the passes for the filter are wider than the picture, on each side; px */
     const struct camera *view;   /* has the picture's rays; NULL: the direction pass has them */

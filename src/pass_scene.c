@@ -16,6 +16,11 @@ static const char end_mirror[] = DARK "\n"
                                  "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
                                  "exponent 1 metallic 0 }\n"
                                  "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
+/* The same where what isn't glossy shines, by which the glossy share of a pixel is known. */
+static const char end_specular[] = DARK "\n"
+                                   "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
+                                   "exponent 1 metallic 0 }\n"
+                                   "  #else emission povgloss_marker #if (povgloss_reflects) reflection { 0 } #end #end";
 static const char end_haze[] = DARK "\n"
                                "  #if (povgloss_phong >= 0 | povgloss_reflects) reflection { 0 } #end";
 /* The same where a glossy finish keeps its reflectivity: any other reflects something next to white (to the power
@@ -37,10 +42,13 @@ static const char mirror_exponent[] =
     "  rgb (povgloss_phong < povgloss_maps_from)*<floor(povgloss_v)/65535, povgloss_v - floor(povgloss_v), 1>";
 
 /* The sky of the camera's own rays, over that of mirrored ones. */
-#define BLACK_SKY \
-    "sphere { 0, 9e6 inverse hollow pigment { rgb 0 } finish { " DARK " reflection { 0 } } no_reflection no_shadow }\n"
+#define CAMERA_SKY(emission) \
+    "sphere { 0, 9e6 inverse hollow pigment { rgb 1 } finish { " DARK " emission " emission \
+    " reflection { 0 } } no_reflection no_shadow no_radiosity }\n"
+#define BLACK_SKY CAMERA_SKY("0")
 #define SKY(colour) BLACK_SKY "sky_sphere { pigment { rgb " colour " } }\n"
 static const char black_sky[] = BLACK_SKY;
+static const char marker_sky[] = CAMERA_SKY("povgloss_marker");
 static const char sky_half[] = SKY("pow(0.5, 20)");
 static const char sky_white[] = SKY("1");
 #define MIRRORS "no_reflection no_shadow no_radiosity"
@@ -68,10 +76,6 @@ static const char outside[] = "povgloss_leave_copy() object { povgloss_object } 
     .first = {.copy = SCENE_COPY_MIRROR, .modifiers = MIRRORS, .finish_end = end_mirror}, .second = {.copy = -1}
 #define EXPONENTS CODES, .margin = true, .mirror_colour = mirror_exponent, MIRROR_COPY, .trailer = sky_white
 #define MIRRORED CODES, .glossy_part = true, .mirror_colour = mirror_white, MIRROR_COPY, .coded_sky = true
-#define SPECULAR \
-    .margin = true, .glossy_part = true, .mirror_colour = mirror_white, \
-        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS}, \
-        .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror}
 #define REFLECTIVITIES \
     .glossy_part = true, .first = {.copy = SCENE_COPY_REFLECTANCE, .modifiers = MIRRORS, .finish_end = end_reflectance}, \
     .second = {.copy = -1}, .trailer = sky_half
@@ -86,8 +90,14 @@ const struct pass pass_table[PASS_COUNT] = {
                    .first = {.copy = SCENE_COPY_BASE_FIRST, .modifiers = SEEN_IN_MIRRORS, .finish_end = "",
                              .placed = outside, .placed_once = true},
                    .second = {.copy = SCENE_COPY_BASE_SECOND, .modifiers = MIRRORS, .finish_end = end_base, .placed = ""}},
-    [PASS_SPECULAR] = {.name = "specular", SPECULAR},
-    [PASS_SPECULAR_MEAN] = {.name = "specular-mean", SPECULAR},
+    [PASS_SPECULAR] = {.name = "specular",
+                       .margin = true,
+                       .glossy_part = true,
+                       .marked = true,
+                       .mirror_colour = mirror_white,
+                       .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
+                       .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_specular},
+                       .trailer = marker_sky},
     [PASS_HAZE] = {.name = "haze",
                    .margin = true,
                    .glossy_part = true,
@@ -146,16 +156,17 @@ static bool is_mirror_copy(const struct scene_part *part)
     "    (povgloss_automatic & " state ".z >= 0 ? " state ".z : povgloss_all))"
 
 /* What takes the place of povgloss_cover, a pigment that may be transparent, in a texture and in an object. */
-static enum result add_cover_macros(const struct scene_part *part, struct buffer *text, struct error *err)
+static enum result add_cover_macros(const struct pass *pass, const struct scene_part *part, struct buffer *text,
+                                    struct error *err)
 {
     static const char keep[] = "pigment { povgloss_cover }", coded[] = "povgloss_coded(povgloss_t)";
 #define THROUGH(place) "(povgloss_through(" place ").filter + povgloss_through(" place ").transmit)"
     static const char thin[] = "pigment { #if (povgloss_uv) uv_mapping #end\n"
                                "    function { min(0.999, " THROUGH("x, y, z") ") }\n"
-                               "    color_map { [0 rgb 0] [%1$g rgb 0] [%1$g rgbt 1] [1 rgbt 1] } }";
+                               "    color_map { [0 rgb %2$d] [%1$g rgb %2$d] [%1$g rgbt 1] [1 rgbt 1] } }";
     bool mirror = is_mirror_copy(part);
     char *thinned;
-    enum result result = text_printf(&thinned, err, thin, CLEAR);
+    enum result result = text_printf(&thinned, err, thin, CLEAR, pass->marked);
     if (!result)
         result = buffer_printf(text, err,
                                "#macro povgloss_see()\n"
@@ -297,7 +308,6 @@ static enum result add_finish_macros(const struct scene *scene, const struct pas
 {
     enum result result = buffer_add_text(
         text,
-        "#declare povgloss_pigment = pigment { rgb 0 };\n"
         "#macro povgloss_hide(povgloss_s)\n"
         "  #if (" EXPONENT("povgloss_s") " >= 0 & (povgloss_mirrors | " IS_CLEAR("povgloss_s.t") ")\n"
         "       & povgloss_s.x < povgloss_maps_from) pigment { rgb 0 } #end\n"
@@ -310,7 +320,9 @@ static enum result add_finish_macros(const struct scene *scene, const struct pas
         result = scene->painted ? add_map_macros(pass, text, err)
                                 : buffer_add_text(text, "#declare povgloss_maps_from = 1e60;\n", err);
     if (!result)
-        result = buffer_printf(text, err, "#declare povgloss_mirrors = %d;\n", pass->mirror_colour != NULL);
+        result = buffer_printf(text, err,
+                               "#declare povgloss_mirrors = %d; #declare povgloss_pigment = pigment { rgb %d };\n",
+                               pass->mirror_colour != NULL, pass->marked);
     if (!result && pass->mirror_colour)
         result = buffer_printf(text, err, "#macro povgloss_mirror_colour() %s #end\n", pass->mirror_colour);
     if (!result)
@@ -403,7 +415,8 @@ static enum result add_finish_macros(const struct scene *scene, const struct pas
                                part->placed_once ? "#if (povgloss_depth = 0) povgloss_modifiers() } #end" : "",
                                part->placed_once ? "#if (povgloss_depth = 0) union { povgloss_nothing() #end" : "");
     if (!result && !is_base(part))
-        result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { " DARK " } }\n", err);
+        result = buffer_printf(text, err, "#default { pigment { povgloss_pigment } finish { " DARK " %s } }\n",
+                               pass->marked ? "emission povgloss_marker" : "");
     return result;
 }
 
@@ -426,7 +439,7 @@ static enum result add_part(const struct scene *scene, const struct pass *pass, 
     if (!result && tracked)
         result = scene_declare_states(scene, text, err);
     if (!result && tracked)
-        result = add_cover_macros(part, text, err);
+        result = add_cover_macros(pass, part, text, err);
     if (!result && tracked)
         result = coded ? add_coded_macros(pass, text, err) : add_finish_macros(scene, pass, part, text, err);
     char *name = NULL;
@@ -480,6 +493,11 @@ bool pass_weights_specular(const struct scene *scene)
     return scene->focal_blur || scene->mixes;
 }
 
+double pass_marker(const struct scene *scene)
+{
+    return scene->working_gamma == 1 ? -16 : 64;
+}
+
 struct pass pass_of(const struct scene *scene, enum pass_id id)
 {
     struct pass pass = pass_table[id];
@@ -495,6 +513,12 @@ struct pass pass_of(const struct scene *scene, enum pass_id id)
         pass.mirror_colour = NULL;
         pass.second.copy = SCENE_COPY_REFLECTION;
         pass.second.finish_end = id == PASS_HAZE ? end_haze_of_reflection : end_reflection;
+    }
+    if (pass.marked && pass_needed(scene, PASS_HAZE)) {
+        pass.marked = false;
+        pass.trailer = NULL;
+        if (!pass_weights_specular(scene))
+            pass.second.finish_end = end_mirror;
     }
     /* An aperture sees glossy surfaces beyond the silhouettes of codes, which have none. */
     if (id == pass_of_glossy(scene) || (scene->focal_blur && !pass.codes))
@@ -558,6 +582,8 @@ enum result pass_scene_text(const struct scene *scene, enum pass_id id, struct b
     /* Codes must not be averaged by focal blur. */
     if (!result)
         result = buffer_printf(text, err, "#macro povgloss_camera() %s #end\n", pass.codes ? "aperture 0" : "");
+    if (!result && pass.marked)
+        result = buffer_printf(text, err, "#declare povgloss_marker = %g;\n", pass_marker(scene));
     if (!result)
         result = add_photon_macro(id, text, err);
     if (!result)
@@ -590,8 +616,6 @@ bool pass_is_mirror(enum pass_id id)
 bool pass_needed(const struct scene *scene, enum pass_id id)
 {
     if (id == PASS_PROBE || pass_is_mirror(id) || pass_is_place(id))
-        return false;
-    if (id == PASS_SPECULAR_MEAN && pass_needed(scene, PASS_HAZE))
         return false;
     if (id == PASS_EXPONENT_MEAN && !scene->painted)
         return false;

@@ -13,7 +13,6 @@ enum pass_id {
     PASS_PHOTONS, /* no image: leaves PASS_PHOTONS_FILE in its folder, for those that are run after it */
     PASS_BASE,
     PASS_SPECULAR,
-    PASS_SPECULAR_MEAN, /* antialiased */
     PASS_HAZE,
     PASS_REFLECTANCE,
     PASS_REFLECTIVITY, /* the same by one ray a pixel: what L0 was multiplied by in the specular pass */
@@ -61,6 +60,7 @@ struct pass {
     bool smooth;    /* antialiased, whatever the user asks */
     bool glossy_part; /* of use where something glossy is, as pass_of_glossy knows; else for the whole picture */
     bool technical; /* colours are numbers: linear, without media or radiosity */
+    bool marked;    /* the camera sees pass_marker() in all that isn't glossy */
     enum position_digits digits;
     const char *mirror_colour; /* reflectivity of its glossy finishes */
     struct scene_part first, second;
@@ -78,9 +78,13 @@ struct pass pass_of(const struct scene *scene, enum pass_id id);
  * what several glossy surfaces reflect. */
 bool pass_weights_specular(const struct scene *scene);
 
+/* The radiance, in the working space, of what isn't glossy in a marked pass: negative where its image keeps negative
+ * values, as it does in linear light; else so bright that what mirrors show seldom is. */
+double pass_marker(const struct scene *scene);
+
 /* Whether the scene requires the pass: where nothing is glossy the base alone; photons where the scene shoots some; the
- * haze where it has one, or media, or a weighted specular pass, which then has a reflectivity, too, and no mean over the
- * pixel; exponents where they differ, antialiased where one is painted. */
+ * haze where it has one, or media, or a weighted specular pass, which then has a reflectivity, too, and none of which is
+ * marked; exponents where they differ, antialiased where one is painted. */
 bool pass_needed(const struct scene *scene, enum pass_id id);
 
 /* Whether there are several exponents, a texture may mix a glossy surface with another one, or a total reflection, in

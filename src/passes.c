@@ -120,7 +120,7 @@ static bool has_means(const struct passes *passes)
 {
     const struct passes_options *options = passes->options;
     return options->means && options->switches->antialias && options->subsample == 1 &&
-           pass_needed(&passes->scene, PASS_SPECULAR_MEAN);
+           pass_of(&passes->scene, PASS_SPECULAR).marked;
 }
 
 static enum result write_scenes(struct passes *passes, struct error *err)
@@ -134,8 +134,7 @@ static enum result write_scenes(struct passes *passes, struct error *err)
     for (int id = 0; !result && id < PASS_COUNT; id++) {
         bool asked = (passes->options->rays && passes->scene.glossy && pass_is_mirror((enum pass_id)id)) ||
                      (passes->margin && pass_is_place((enum pass_id)id));
-        bool unasked = (id == PASS_OWN && !is_checked(passes)) || (id == PASS_VIEW && !seeks_view(passes)) ||
-                       (id == PASS_SPECULAR_MEAN && !has_means(passes));
+        bool unasked = (id == PASS_OWN && !is_checked(passes)) || (id == PASS_VIEW && !seeks_view(passes));
         if (unasked || (!asked && !pass_needed(&passes->scene, (enum pass_id)id)))
             continue;
         passes->ids[passes->job_count++] = (enum pass_id)id;
@@ -341,7 +340,7 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
     enum result result = scene_arguments(passes, frame, arguments, err);
     if (!result)
         result = add_all(arguments, pass.codes ? codes : radiance, err);
-    if (!result && id == PASS_SPECULAR_MEAN)
+    if (!result && id == PASS_SPECULAR && has_means(passes))
         result = add_all(arguments, mean, err);
     else if (!result && (!pass.full_size || id == PASS_OWN))
         result = text_list_add(arguments, err, "-A");

@@ -1,9 +1,10 @@
 /* The passes of a POV-Ray scene: which are rendered, how each scene is written, and what is made of their images.
  *
  *   base         the scene with the glossy finishes' reflection switched off
- *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors and the rest is black,
- *                mirrored rays see the scene itself; with focal blur and mixed textures times the reflectivity
- *   specular-mean  the same antialiased, where the picture is and there is no haze: the mean over the pixel
+ *   specular     L0: the camera sees a copy in which glossy surfaces are perfect mirrors, mirrored rays see the scene
+ *                itself. Antialiased where the picture is: the rest has one radiance, which tells how much of a pixel is
+ *                glossy. With fog, a rainbow or media one ray a pixel, and the rest is black; with focal blur and mixed
+ *                textures, too, and L0 times the reflectivity
  *   haze         where there is fog, a rainbow or media, or L0 is weighted: the same without mirrors, which is what
  *                they add before the glossy surface to the specular pass
  *   reflectance  glossy surfaces with their own reflection and no shading, under a sky of one half

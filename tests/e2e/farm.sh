@@ -66,25 +66,13 @@ bands() {
     # Outside of its band a file is 0.
     oiiotool band-1.exr band-2.exr --add band-3.exr --add -o sum.exr
 }
-without_means() {
-    bands --no-means && idiff -a -fail 0 -hardfail 0 whole.exr sum.exr &&
+joined() {
+    bands "$@" && idiff -a -fail 0 -hardfail 0 whole.exr sum.exr &&
         glossfilter band-*.exr -o joined.exr && glossfilter whole.exr -o picture.exr &&
         idiff -fail 1e-4 -hardfail 1e-4 picture.exr joined.exr
 }
-check 'bands__joined__the_whole_picture' without_means
-# L0 isn't the mean over the pixel in the rows beside another band, whose surfaces aren't known.
-with_means() {
-    local top height file
-    bands || return
-    for top in 1 33 65 97 129; do
-        height=$((top < 129 ? 30 : 21))
-        for file in whole sum; do
-            oiiotool $file.exr --cut "64x$height+0+$top" -o cut-$file.exr || return
-        done
-        idiff -a -fail 0 -hardfail 0 cut-whole.exr cut-sum.exr || return
-    done
-}
-check 'bands__antialiased__the_whole_picture_but_beside_others' with_means
+check 'bands__joined__the_whole_picture' joined
+check 'bands__without_means__joined__the_whole_picture' joined --no-means
 wrong_bands() {
     povgloss passes turning.pov +W32 +H150 --quiet --no-check -o other.exr || return
     run glossfilter band-1.exr other.exr -o refused.exr
