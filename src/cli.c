@@ -466,13 +466,20 @@ void cli_warn_of_pixels(const char *program, const char *name, const struct cli_
                 program, name, unused, unused > 1 ? "s" : "", (double)filter->phong, (double)filter->phong);
 }
 
+enum result cli_blur(const struct cli_filter *options, const struct gbuffer *gbuffer, struct image *glossy,
+                     struct image *measure, struct error *err)
+{
+    struct timings_moment start = timings_now();
+    enum result result = filter_glossy(gbuffer, &options->filter, glossy, measure, err);
+    timings_add(options->timings, "filter", start);
+    return result;
+}
+
 enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                      struct error *err)
 {
     struct image glossy = {0}, measure = {0};
-    struct timings_moment start = timings_now();
-    enum result result = filter_glossy(gbuffer, &options->filter, &glossy, &measure, err);
-    timings_add(options->timings, "filter", start);
+    enum result result = cli_blur(options, gbuffer, &glossy, &measure, err);
     if (result == RESULT_OK)
         result = cli_write(path, options, gbuffer, &glossy, &measure, err);
     image_free(&glossy);

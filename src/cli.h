@@ -51,6 +51,10 @@ MUST_CHECK enum result cli_number(const char *option, const char *text, double l
 MUST_CHECK enum result cli_integer(const char *option, const char *text, int low, int high, int *value,
                                    struct error *err);
 
+/* Filters the passes as filter_glossy() does. */
+MUST_CHECK enum result cli_blur(const struct cli_filter *options, const struct gbuffer *gbuffer, struct image *glossy,
+                                struct image *measure, struct error *err);
+
 /* Composes the picture with the blurred reflection and writes it to `path`; with --layers also glossy.R/.G/.B and
  * `measure`, unless it is NULL, as confidence.V, of the paper radius.V. All are cropped to the window. */
 MUST_CHECK enum result cli_write(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
@@ -61,8 +65,7 @@ MUST_CHECK enum result cli_write(const char *path, const struct cli_filter *opti
 void cli_warn_of_pixels(const char *program, const char *name, const struct cli_filter *options,
                         const struct gbuffer *gbuffer);
 
-/* Filters the passes, composes the picture and writes it to `path`; with --layers also glossy.R/.G/.B and confidence.V,
- * of the paper radius.V. */
+/* cli_blur() and cli_write(). */
 MUST_CHECK enum result cli_draw(const char *path, const struct cli_filter *options, const struct gbuffer *gbuffer,
                                 struct error *err);
 

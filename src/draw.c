@@ -98,6 +98,7 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
     const struct frames *frames = &command->passes.frames;
     bool last = number + frames->step > frames->last;
     struct gbuffer gbuffer = {0};
+    struct image glossy = {0}, measure = {0};
 
     /* 1. refuse what can't be written, before the work */
     enum result result = draw_check_place(path, err);
@@ -109,20 +110,28 @@ static enum result draw_frame(struct command *command, struct passes **passes, i
         result = lobe_rays_trace(command, *passes, number, &gbuffer, err);
     if (!result && last && command->depfile)
         result = passes_reads(*passes, reads, err);
-    /* A pipe whose reader went away ends the program as it writes: no folder is there then. */
+
+    /* 3. the filter, while POV-Ray's processes end */
+    if (!result)
+        cli_warn_of_pixels("povgloss", command->path, &command->filter, &gbuffer);
+    if (!result && command->kind != KIND_PASSES)
+        result = cli_blur(&command->filter, &gbuffer, &glossy, &measure, err);
+    if (!result)
+        result = passes_settle(*passes, err);
+    /* A pipe whose reader went away ends the program as it writes: no folder and no process is there then. */
     if (last)
         draw_close_passes(passes);
 
-    /* 3. the passes file, or the picture by the filter */
-    if (!result)
-        cli_warn_of_pixels("povgloss", command->path, &command->filter, &gbuffer);
+    /* 4. the passes file, or the picture */
     if (!result && command->kind == KIND_PASSES) {
         struct timings_moment start = timings_now();
         result = passes_file_write(path, &gbuffer, err);
         timings_add(command->filter.timings, "write", start);
     } else if (!result) {
-        result = cli_draw(path, &command->filter, &gbuffer, err);
+        result = cli_write(path, &command->filter, &gbuffer, &glossy, &measure, err);
     }
+    image_free(&glossy);
+    image_free(&measure);
     gbuffer_free(&gbuffer);
     return result;
 }

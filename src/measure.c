@@ -37,6 +37,8 @@ enum result measure_probes(struct command *command, struct error *err)
         result = probes_begin(&probes, &gbuffer, &command->probe, err);
     if (!result)
         result = lobe_rays_measure(command, passes, command->passes.frames.first, &probes, err);
+    if (!result)
+        result = passes_settle(passes, err);
     draw_close_passes(&passes);
     int left = result || command->kind == KIND_BRUTE ? 0 : probes_open(&probes);
     struct error note = {0};

@@ -13,10 +13,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum result pass_image_name(enum pass_id id, const char *number, char **name, struct error *err)
+{
+    return text_printf(name, err, "image%s.%s", number, pass_table[id].codes ? "ppm" : "exr");
+}
+
 enum result pass_image_path(const struct pass_images *images, enum pass_id id, char **path, struct error *err)
 {
-    return text_printf(path, err, "%s/%s/image%s.%s", images->folder, pass_table[id].name, images->number,
-                       pass_table[id].codes ? "ppm" : "exr");
+    char *name;
+    enum result result = pass_image_name(id, images->number, &name, err);
+    if (!result)
+        result = text_printf(path, err, "%s/%s/%s", images->folder, pass_table[id].name, name);
+    free(name);
+    return result;
 }
 
 /* Of a mixed texture: a glossy surface with a smaller share isn't glossy. */

@@ -20,7 +20,10 @@ struct pass_images {
     const struct camera *camera; /* of the picture, with its eye; NULL without a margin */
 };
 
-/* The path of a pass's image, which the caller frees: folder/pass/image03.exr, .ppm for codes. */
+/* The name of a pass's image, which the caller frees: image03.exr, .ppm for codes. */
+MUST_CHECK enum result pass_image_name(enum pass_id id, const char *number, char **name, struct error *err);
+
+/* Its path, which the caller frees, too: folder/pass/image03.exr. */
 MUST_CHECK enum result pass_image_path(const struct pass_images *images, enum pass_id id, char **path,
                                        struct error *err);
 

@@ -50,6 +50,7 @@ struct passes {
     struct povray_job jobs[PASS_COUNT];
     enum pass_id ids[PASS_COUNT];
     int job_count;
+    bool ending;          /* the jobs' processes may not all have ended */
 };
 
 /* Writes the scene that POV-Ray reads in a folder. For each call of its macros in an included file POV-Ray looks for it
@@ -375,7 +376,7 @@ static void blame_version(const struct povray_job *job, struct error *err)
 static void blame_disk(const struct passes *passes, struct error *err)
 {
     struct error cause = *err;
-    if (work_folder_is_full(&passes->folder))
+    if (folder_is_full(passes->folder.path))
         error_set(err, RESULT_POVRAY, "%s; less than 1 MB is left in %s: set TMPDIR to a folder with more space",
                   cause.text, passes->folder.path);
 }
@@ -465,12 +466,18 @@ static enum result prepare_environment(struct passes *passes, struct error *err)
     return result ? result : make_environment(passes, err);
 }
 
-static void add_timings(const struct passes *passes, const struct povray_job *jobs, int count)
+static void add_wall_times(const struct passes *passes, const struct povray_job *jobs, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (jobs[i].finished || jobs[i].delivered)
+            timings_add_povray(passes->options->timings, jobs[i].name, jobs[i].start_s, jobs[i].wall_s, 0);
+}
+
+static void add_processor_times(const struct passes *passes, const struct povray_job *jobs, int count)
 {
     for (int i = 0; i < count; i++)
         if (jobs[i].finished)
-            timings_add_povray(passes->options->timings, jobs[i].name, jobs[i].start_s, jobs[i].wall_s,
-                               jobs[i].child.cpu_s);
+            timings_add_povray(passes->options->timings, jobs[i].name, jobs[i].start_s, 0, jobs[i].child.cpu_s);
 }
 
 /* POV-Ray parses the scene and is stopped by the wrapper before it draws: that is a success if the log has its last
@@ -494,7 +501,8 @@ static enum result run_discovery(struct passes *passes, const char *name, const 
         result = RESULT_OK;
     else if (failed >= 0)
         result = report_failure(passes, &job, err);
-    add_timings(passes, &job, 1);
+    add_wall_times(passes, &job, 1);
+    add_processor_times(passes, &job, 1);
     input_file_free(&log);
     povray_jobs_free(&job, 1);
     text_list_free(&arguments);
@@ -602,9 +610,9 @@ static enum result add_window(struct text_list *arguments, int left, int top, in
 /* The jobs of a frame while they run. */
 struct run {
     struct passes *passes;
-    int frame;
+    char number[FRAMES_NUMBER_SIZE]; /* of the frame */
     struct text_list arguments[PASS_COUNT];
-    char *folders[PASS_COUNT];
+    char *folders[PASS_COUNT], *images[PASS_COUNT];
     bool view_sought, camera_sought; /* it is known, or can't be */
     bool narrows, narrowed; /* to the glossy window: whether passes are, and whether they have been */
 };
@@ -620,7 +628,7 @@ static struct povray_job *job_of(struct passes *passes, enum pass_id id)
 static bool has_ended(struct passes *passes, enum pass_id id)
 {
     const struct povray_job *job = job_of(passes, id);
-    return !job || job->finished;
+    return !job || job->finished || job->delivered;
 }
 
 /* What the passes with a margin include: nothing as long as the camera isn't known. */
@@ -729,22 +737,20 @@ static enum result go_on(void *context, struct error *err)
 {
     struct run *run = context;
     struct passes *passes = run->passes;
-    char number[FRAMES_NUMBER_SIZE];
-    frames_number(&passes->options->frames, run->frame, number);
     enum result result = RESULT_OK;
     if (!run->view_sought && has_ended(passes, PASS_VIEW)) {
-        const struct pass_images images = images_of(passes, number);
+        const struct pass_images images = images_of(passes, run->number);
         run->view_sought = true;
         result = seek_view(passes, &images, err);
     }
     if (!result && passes->margin && !run->camera_sought && run->view_sought && has_ended(passes, PASS_PLACE) &&
         has_ended(passes, PASS_PLACE_LOW)) {
-        const struct pass_images images = images_of(passes, number);
+        const struct pass_images images = images_of(passes, run->number);
         run->camera_sought = true;
         result = add_margin(run, &images, err);
     }
     if (!result && run->narrows && !run->narrowed && has_ended(passes, pass_of_glossy(&passes->scene))) {
-        const struct pass_images images = images_of(passes, number);
+        const struct pass_images images = images_of(passes, run->number);
         run->narrowed = true;
         result = narrow(run, &images, err);
     }
@@ -755,18 +761,23 @@ static enum result go_on(void *context, struct error *err)
 static enum result run_passes(struct passes *passes, int frame, struct error *err)
 {
     const struct passes_options *options = passes->options;
-    struct run run = {.passes = passes, .frame = frame, .narrows = passes->scene.glossy && !options->switches->partial};
+    struct run run = {.passes = passes, .narrows = passes->scene.glossy && !options->switches->partial};
     const struct buffer none = {0};
     enum result result = passes->margin ? write_camera(passes, &none, err) : RESULT_OK;
+    povray_jobs_free(passes->jobs, passes->job_count);
     passes->has_view = passes->has_camera = false;
     passes->margin_x = passes->margin_y = 0;
+    frames_number(&options->frames, frame, run.number);
     for (int i = 0; !result && i < passes->job_count; i++) {
         result = job_arguments(passes, passes->ids[i], frame, &run.arguments[i], err);
         if (!result)
             result = text_printf(&run.folders[i], err, "%s/%s", passes->folder.path, pass_table[passes->ids[i]].name);
+        if (!result)
+            result = pass_image_name(passes->ids[i], run.number, &run.images[i], err);
         passes->jobs[i] = (struct povray_job){.name = pass_table[passes->ids[i]].name,
                                               .folder = run.folders[i],
                                               .arguments = run.arguments[i].texts,
+                                              .image = run.images[i],
                                               .timeout_s = options->timeout_s,
                                               .ended = go_on,
                                               .context = &run};
@@ -785,12 +796,13 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
         result = report_failure(passes, &passes->jobs[failed], err);
     if (!result && !povray_is_other_version(&passes->jobs[0].messages, passes->version))
         passes->version[0] = 0;
-    add_timings(passes, passes->jobs, passes->job_count);
-    povray_jobs_free(passes->jobs, passes->job_count);
+    add_wall_times(passes, passes->jobs, passes->job_count);
     for (int i = 0; i < passes->job_count; i++) {
         text_list_free(&run.arguments[i]);
         free(run.folders[i]);
+        free(run.images[i]);
     }
+    passes->ending = true;
     return result;
 }
 
@@ -812,7 +824,8 @@ static enum result run_view(const struct passes *passes, int frame, int width, i
         result = povray_run(&job, 1, 1, passes->environment, NULL, NULL, &failed, err);
     if (failed >= 0)
         result = report_failure(passes, &job, err);
-    add_timings(passes, &job, 1);
+    add_wall_times(passes, &job, 1);
+    add_processor_times(passes, &job, 1);
     povray_jobs_free(&job, 1);
     text_list_free(&arguments);
     free(folder);
@@ -960,6 +973,27 @@ enum result passes_open(const struct passes_options *options, struct passes **op
     return result ? result : prepare(passes, options->frames.first, note, err);
 }
 
+/* Waits for the ends of the last frame's processes. */
+static enum result end_jobs(struct passes *passes, int *failed, struct error *err)
+{
+    *failed = -1;
+    if (!passes->ending)
+        return RESULT_OK;
+    passes->ending = false;
+    enum result result = povray_end(passes->jobs, passes->job_count, failed, err);
+    add_processor_times(passes, passes->jobs, passes->job_count);
+    return result;
+}
+
+enum result passes_settle(struct passes *passes, struct error *err)
+{
+    int failed;
+    if (!passes)
+        return RESULT_OK;
+    enum result result = end_jobs(passes, &failed, err);
+    return failed >= 0 ? report_failure(passes, &passes->jobs[failed], err) : result;
+}
+
 enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuffer, struct error *note,
                           struct error *err)
 {
@@ -968,7 +1002,9 @@ enum result passes_render(struct passes *passes, int frame, struct gbuffer *gbuf
     frames_number(&options->frames, frame, number);
     *gbuffer = (struct gbuffer){0};
     note->text[0] = 0;
-    enum result result = prepare_frame(passes, frame, err);
+    enum result result = passes_settle(passes, err);
+    if (!result)
+        result = prepare_frame(passes, frame, err);
     struct timings_moment start = timings_now();
     if (!result)
         result = run_passes(passes, frame, err);
@@ -1071,6 +1107,10 @@ enum result passes_close(struct passes *passes, struct error *err)
 {
     if (!passes)
         return RESULT_OK;
+    struct error ignored;
+    int failed;
+    end_jobs(passes, &failed, &ignored);
+    povray_jobs_free(passes->jobs, passes->job_count);
     free_scene(passes);
     reads_free(&passes->reads);
     text_list_free(&passes->command);

@@ -1,12 +1,14 @@
-/* One poll loop over the standard errors of all running processes: after its end of file a process is watched until it
- * has ended.
+/* One poll loop over the standard errors of all running processes, and over what is closed in their folders: after its end
+ * of file a process is watched until it has ended.
  *
- * POV-Ray writes everything there: banner, options, warnings, errors, and its progress.
+ * POV-Ray writes everything there: banner, options, warnings, errors, and its progress. It closes its image when that is
+ * whole, and then sleeps for half a second before it ends.
  */
 #include "povray.h"
 
 #include "interrupt.h"
 #include "timings.h"
+#include "work_folder.h"
 
 #include <errno.h>
 #include <math.h>
@@ -14,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/inotify.h>
 #include <unistd.h>
 
 enum { MAX_JOBS = 16, POLL_MS = 200, POLL_ENDING_MS = 5, MAX_MESSAGES = 1 << 22 };
@@ -57,9 +60,12 @@ enum result povray_missing(const char *program, struct error *err)
                      "%s isn't in PATH: install POV-Ray 3.7 (on Debian: apt-get install povray povray-includes)", program);
 }
 
-static enum result start_job(struct povray_job *job, char *const *environment, struct error *err)
+/* `notify_fd` tells what is closed in the folders of jobs that have an image; -1, or a folder that can't be watched: their
+ * ends tell. */
+static enum result start_job(struct povray_job *job, int notify_fd, char *const *environment, struct error *err)
 {
     bool missing;
+    job->watch = job->image ? inotify_add_watch(notify_fd, job->folder, IN_CLOSE_WRITE) : -1;
     job->start_s = timings_clock_s();
     enum result result = child_start(&job->child, job->arguments, job->folder, environment, &missing, err);
     if (result && missing)
@@ -78,9 +84,14 @@ static struct povray_job *next_job(struct povray_job *jobs, int count)
     return NULL;
 }
 
+static bool is_alive(const struct povray_job *job)
+{
+    return job->started && !job->finished;
+}
+
 static bool is_done(const struct povray_job *job)
 {
-    return job->finished || job->dropped;
+    return job->finished || job->delivered || job->dropped;
 }
 
 static bool are_done(const struct povray_job *jobs, int count)
@@ -101,61 +112,127 @@ static void report(const struct povray_job *jobs, int count, povray_progress *pr
     progress(context, done / count);
 }
 
+static enum result tell_done(struct povray_job *job, struct error *err)
+{
+    job->wall_s = timings_clock_s() - job->start_s;
+    return job->ended && !interrupt_signal() ? job->ended(job->context, err) : RESULT_OK;
+}
+
+/* Jobs whose image has been closed have done their work, unless the disk is full. */
+static enum result take_images(struct povray_job *jobs, int count, int notify_fd, struct error *err)
+{
+    _Alignas(struct inotify_event) char events[4096];
+    const ssize_t size = read(notify_fd, events, sizeof events);
+    enum result result = RESULT_OK;
+    for (ssize_t at = 0; at < size;) {
+        const struct inotify_event *event = (const struct inotify_event *)(const void *)(events + at);
+        at += (ssize_t)(sizeof *event + event->len);
+        for (int i = 0; !result && i < count; i++) {
+            struct povray_job *job = &jobs[i];
+            if (!is_alive(job) || job->delivered || job->watch != event->wd || !event->len ||
+                strcmp(event->name, job->image) || folder_is_full(job->folder))
+                continue;
+            job->delivered = true;
+            result = tell_done(job, err);
+        }
+    }
+    return result;
+}
+
+/* Waits until something happens to one of the jobs, or for a while. */
+static enum result watch_jobs(struct povray_job *jobs, int count, int notify_fd, int *failed, struct error *err)
+{
+    struct pollfd polls[1 + MAX_JOBS] = {{.fd = notify_fd, .events = POLLIN}};
+    int owners[1 + MAX_JOBS], poll_count = 1, wait_ms = POLL_MS;
+    enum result result = RESULT_OK;
+    for (int i = 0; i < count; i++)
+        if (is_alive(&jobs[i])) {
+            owners[poll_count] = i;
+            /* poll() passes over a descriptor of -1. */
+            polls[poll_count++] = (struct pollfd){.fd = jobs[i].child.output_fd, .events = POLLIN};
+            if (jobs[i].child.output_fd < 0)
+                wait_ms = POLL_ENDING_MS;
+        }
+    if (poll(polls, (nfds_t)poll_count, wait_ms) < 0 && errno != EINTR)
+        return error_set(err, RESULT_DATA, "waiting for POV-Ray failed: %s", strerror(errno));
+    if (interrupt_signal())
+        return RESULT_INTERRUPTED;
+    if (polls[0].revents)
+        result = take_images(jobs, count, notify_fd, err);
+    for (int i = 1; !result && i < poll_count; i++) {
+        struct povray_job *job = &jobs[owners[i]];
+        int status;
+        if (polls[i].revents)
+            result = read_messages(job, err);
+        if (!result && timings_clock_s() > job->end_s)
+            result = error_set(err, RESULT_POVRAY, "POV-Ray took longer than %d s in the %s pass, and was ended: give it "
+                               "more time (--timeout)", job->timeout_s, job->name);
+        if (result || job->child.output_fd >= 0 || !child_has_ended(&job->child, &status))
+            continue;
+        job->finished = true;
+        if (status && !interrupt_signal()) {
+            *failed = owners[i];
+            result = error_set(err, RESULT_POVRAY, "povray failed with exit status %d in the %s pass", status, job->name);
+        } else if (!job->delivered) {
+            result = tell_done(job, err);
+        }
+    }
+    return result;
+}
+
+static void kill_jobs(struct povray_job *jobs, int count)
+{
+    struct child *left[MAX_JOBS];
+    int left_count = 0;
+    for (int i = 0; i < count; i++)
+        if (is_alive(&jobs[i])) {
+            left[left_count++] = &jobs[i].child;
+            jobs[i].finished = true;
+        }
+    child_kill(left, left_count);
+}
+
+/* How many processes there are, and of them those that haven't done their work. */
+static void count_jobs(const struct povray_job *jobs, int count, int *alive, int *running)
+{
+    *alive = *running = 0;
+    for (int i = 0; i < count; i++) {
+        *alive += is_alive(&jobs[i]);
+        *running += is_alive(&jobs[i]) && !jobs[i].delivered;
+    }
+}
+
 enum result povray_run(struct povray_job *jobs, int count, int at_once, char *const *environment,
                        povray_progress *progress, void *context, int *failed, struct error *err)
 {
     enum result result = RESULT_OK;
-    int running = 0;
+    const int notify_fd = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
     *failed = -1;
     while (!result && !are_done(jobs, count)) {
         struct povray_job *next;
-        while (!result && running < at_once && running < MAX_JOBS && (next = next_job(jobs, count))) {
-            result = start_job(next, environment, err);
-            running += !result;
-        }
-        struct pollfd polls[MAX_JOBS];
-        int owners[MAX_JOBS], poll_count = 0, wait_ms = POLL_MS;
-        for (int i = 0; i < count; i++)
-            if (jobs[i].started && !jobs[i].finished) {
-                owners[poll_count] = i;
-                /* poll() passes over a descriptor of -1. */
-                polls[poll_count++] = (struct pollfd){.fd = jobs[i].child.output_fd, .events = POLLIN};
-                if (jobs[i].child.output_fd < 0)
-                    wait_ms = POLL_ENDING_MS;
-            }
-        if (!result && poll(polls, (nfds_t)poll_count, wait_ms) < 0 && errno != EINTR)
-            result = error_set(err, RESULT_DATA, "waiting for POV-Ray failed: %s", strerror(errno));
-        if (interrupt_signal())
-            result = RESULT_INTERRUPTED;
-        for (int i = 0; !result && i < poll_count; i++) {
-            struct povray_job *job = &jobs[owners[i]];
-            int status;
-            if (polls[i].revents)
-                result = read_messages(job, err);
-            if (!result && timings_clock_s() > job->end_s)
-                result = error_set(err, RESULT_POVRAY, "POV-Ray took longer than %d s in the %s pass, and was ended: give it "
-                                   "more time (--timeout)", job->timeout_s, job->name);
-            if (result || job->child.output_fd >= 0 || !child_has_ended(&job->child, &status))
-                continue;
-            job->finished = true;
-            job->wall_s = timings_clock_s() - job->start_s;
-            running--;
-            if (status && !interrupt_signal()) {
-                *failed = owners[i];
-                result = error_set(err, RESULT_POVRAY, "povray failed with exit status %d in the %s pass", status,
-                                   job->name);
-            } else if (job->ended && !interrupt_signal()) {
-                result = job->ended(job->context, err);
-            }
-        }
+        int alive, running;
+        count_jobs(jobs, count, &alive, &running);
+        for (; !result && running < at_once && alive < MAX_JOBS && (next = next_job(jobs, count)); alive++, running++)
+            result = start_job(next, notify_fd, environment, err);
+        if (!result)
+            result = watch_jobs(jobs, count, notify_fd, failed, err);
         report(jobs, count, progress, context);
     }
-    struct child *left[MAX_JOBS];
-    int left_count = 0;
-    for (int i = 0; i < count; i++)
-        if (jobs[i].child.pid > 0)
-            left[left_count++] = &jobs[i].child;
-    child_kill(left, left_count);
+    if (notify_fd >= 0)
+        close(notify_fd);
+    if (result)
+        kill_jobs(jobs, count);
+    return result;
+}
+
+enum result povray_end(struct povray_job *jobs, int count, int *failed, struct error *err)
+{
+    int alive, running;
+    enum result result = RESULT_OK;
+    *failed = -1;
+    while (count_jobs(jobs, count, &alive, &running), !result && alive > 0)
+        result = watch_jobs(jobs, count, -1, failed, err);
+    kill_jobs(jobs, count);
     return result;
 }
 

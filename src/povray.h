@@ -7,7 +7,7 @@
 
 enum { POVRAY_VERSION_SIZE = 32 };
 
-/* Is called when a job has ended well. */
+/* Is called when a job has done its work. */
 typedef enum result povray_ended(void *context, struct error *err);
 
 /* One process. The caller fills the first group and frees the arguments; povray_run does the rest. */
@@ -15,6 +15,7 @@ struct povray_job {
     const char *name;       /* of the pass, for messages */
     const char *folder;     /* where the process runs and writes its image */
     char *const *arguments; /* argv, argv[0] being the program; NULL-terminated */
+    const char *image;      /* the file in the folder that is all its work: it is done once that is closed; NULL: none */
     int timeout_s;          /* it is ended when it runs longer; 0: never */
     bool held;              /* doesn't start until the `ended` of another one clears this */
     bool dropped;           /* doesn't start at all: the `ended` of another one found that it isn't needed */
@@ -25,8 +26,9 @@ struct povray_job {
     struct buffer messages; /* standard error */
     double done;            /* 0 to 1 */
     double start_s, end_s;  /* of timings_clock_s; the end is that of the timeout, infinite: none */
-    double wall_s;          /* how long it ran, once it has finished */
-    bool started, finished;
+    double wall_s;          /* how long its work took, once that is done */
+    int watch;              /* the folder's, of inotify; -1: none */
+    bool started, delivered, finished; /* delivered: the image is there, and the process only has to end */
 };
 
 /* Is told from time to time how much of all the work is done, 0 to 1; NULL: nobody is. */
@@ -35,9 +37,15 @@ typedef void povray_progress(void *context, double done);
 /* Runs all jobs, `at_once` of them at a time, in their order as far as none waits, with the environment given. When one
  * fails the others are ended, *failed is its index (else -1), its messages are there for povray_error_text, and the
  * result is RESULT_POVRAY with its exit status; RESULT_POVRAY and -1 when one isn't there or runs into its timeout;
- * RESULT_INTERRUPTED after a signal. No process is left in any case. */
+ * RESULT_INTERRUPTED after a signal; then no process is left. After a success those whose images are there may not have
+ * ended: povray_end waits for them. */
 MUST_CHECK enum result povray_run(struct povray_job *jobs, int count, int at_once, char *const *environment,
                                   povray_progress *progress, void *context, int *failed, struct error *err);
+
+/* Waits for the ends of what povray_run has left, and takes their processor time. Fails as that does, where one whose image
+ * is there fails after all, too. No process is left in any case. */
+MUST_CHECK enum result povray_end(struct povray_job *jobs, int count, int *failed, struct error *err);
+
 void povray_jobs_free(struct povray_job *jobs, int count);
 
 /* RESULT_POVRAY, and a message that the program isn't there. */

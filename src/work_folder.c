@@ -107,10 +107,10 @@ enum result work_folder_remove(struct work_folder *folder, struct error *err)
     return result;
 }
 
-bool work_folder_is_full(const struct work_folder *folder)
+bool folder_is_full(const char *path)
 {
     struct statvfs disk;
-    return statvfs(folder->path, &disk) == 0 && (double)disk.f_bavail * (double)disk.f_frsize < 1e6;
+    return statvfs(path, &disk) == 0 && (double)disk.f_bavail * (double)disk.f_frsize < 1e6;
 }
 
 enum result work_folder_add(const struct work_folder *folder, const char *name, struct error *err)

@@ -19,8 +19,8 @@ MUST_CHECK enum result work_folder_make(struct work_folder *folder, const char *
  * of it is left. */
 MUST_CHECK enum result work_folder_remove(struct work_folder *folder, struct error *err);
 
-/* Whether less than 1 MB is left on its disk. */
-bool work_folder_is_full(const struct work_folder *folder);
+/* Whether less than 1 MB is left on the disk of a folder. */
+bool folder_is_full(const char *path);
 
 /* A folder inside it. */
 MUST_CHECK enum result work_folder_add(const struct work_folder *folder, const char *name, struct error *err);

@@ -22,7 +22,8 @@ draw() {
         cat << 'SH'
 folder=$(basename "$PWD") image=image.exr
 for argument; do case $argument in *image.ppm) image=image.ppm ;; esac; done
-good() { cp "$here/good.${image#image.}" "$image"; }
+put() { cp "$here/$1.${image#image.}" "$image"; }
+good() { put good; }
 SH
         cat
     } > fake/povray
@@ -74,16 +75,13 @@ check "one image isn't written" fails 3 "reflectance/image.exr: cannot be opened
 [ "$folder" = reflectance ] || good
 SH
 check "a PPM that ends early" fails 3 "position/image.ppm: " << 'SH'
-good
-[ "$folder" != position ] || cp "$here/cut.ppm" image.ppm
+if [ "$folder" = position ]; then put cut; else good; fi
 SH
 check "an EXR that ends early" fails 3 "specular/image.exr: " << 'SH'
-good
-[ "$folder" != specular ] || cp "$here/cut.exr" image.exr
+if [ "$folder" = specular ]; then put cut; else good; fi
 SH
 check "a text in place of a PPM" fails 3 "direction/image.ppm: not a PPM" << 'SH'
-good
-[ "$folder" != direction ] || cp "$here/text.ppm" image.ppm
+if [ "$folder" = direction ]; then put text; else good; fi
 SH
 check "an error in POV-Ray's own picture names the user's line" fails 4 "File 'scene.pov' line 2: Parse Error" << 'SH'
 good
@@ -94,13 +92,11 @@ good
 [ "$folder" != own ] || { echo "File '../lib0/a.inc' line 2: Parse Error: Hello" >&2; exit 1; }
 SH
 check "POV-Ray's own picture ends early" fails 3 "own/image.exr: " << 'SH'
-good
-[ "$folder" != own ] || cp "$here/cut.exr" image.exr
+if [ "$folder" = own ]; then put cut; else good; fi
 SH
 for pass in base specular reflectance position position-low endpoint endpoint-low; do
     check "an image of another size in the $pass pass" fails 3 "9" << SH
-good
-[ "\$folder" != $pass ] || cp "\$here/wrong.\${image#image.}" \$image
+if [ "\$folder" = $pass ]; then put wrong; else good; fi
 SH
 done
 check "megabytes of messages" fails 4 "exit status 3" << 'SH'

@@ -84,6 +84,85 @@ static void run__all_succeed__finished_with_their_messages(void **state)
     assert_null(jobs.jobs[0].messages.data);
 }
 
+static enum result count_ended(void *context, struct error *err)
+{
+    (void)err;
+    ++*(int *)context;
+    return RESULT_OK;
+}
+
+/* The first process ends when the second one has run, which may start only when the first has done its work. */
+static void run__image_closed__done_before_the_process_ends(void **state)
+{
+    (void)state;
+    struct jobs jobs = {.count = 0};
+    struct error err;
+    int failed, ended = 0;
+    char path[512];
+    snprintf(path, sizeof path, "PATH=%s", getenv("PATH"));
+    char *environment[] = {path, NULL};
+    add_job(&jobs, "touch other.ppm; echo > image.ppm; while [ ! -e go ]; do sleep 0.02; done");
+    add_job(&jobs, "echo > image2.ppm; while [ ! -e go ]; do sleep 0.02; done");
+    jobs.jobs[0].image = "image.ppm";
+    jobs.jobs[1].image = "image2.ppm";
+    for (int i = 0; i < 2; i++) {
+        jobs.jobs[i].ended = count_ended;
+        jobs.jobs[i].context = &ended;
+    }
+    assert_ok(povray_run(jobs.jobs, 2, 1, environment, NULL, NULL, &failed, &err), err);
+    assert_int_equal(failed, -1);
+    assert_int_equal(ended, 2);
+    for (int i = 0; i < 2; i++)
+        assert_true(jobs.jobs[i].delivered && !jobs.jobs[i].finished);
+    write_bytes(in_scratch("go"), "", 0);
+    assert_ok(povray_end(jobs.jobs, 2, &failed, &err), err);
+    assert_int_equal(failed, -1);
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
+    assert_int_equal(ended, 2);
+    assert_true(jobs.jobs[0].finished && jobs.jobs[1].finished);
+    povray_jobs_free(jobs.jobs, 2);
+    unlink(in_scratch("go"));
+}
+
+static void end__failed_after_its_image__told(void **state)
+{
+    (void)state;
+    struct jobs jobs = {.count = 0};
+    struct error err;
+    int failed;
+    char path[512];
+    snprintf(path, sizeof path, "PATH=%s", getenv("PATH"));
+    char *environment[] = {path, NULL};
+    add_job(&jobs, "echo > image.ppm; exec sleep 300");
+    add_job(&jobs, "echo > image2.ppm; while [ ! -e go ]; do sleep 0.02; done; echo why >&2; exit 3");
+    jobs.jobs[0].image = "image.ppm";
+    jobs.jobs[1].image = "image2.ppm";
+    assert_ok(povray_run(jobs.jobs, 2, 2, environment, NULL, NULL, &failed, &err), err);
+    write_bytes(in_scratch("go"), "", 0);
+    assert_int_equal(povray_end(jobs.jobs, 2, &failed, &err), RESULT_POVRAY);
+    assert_non_null(strstr(err.text, "exit status 3"));
+    assert_int_equal(failed, 1);
+    assert_string_equal(jobs.jobs[1].messages.data, "why\n");
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
+    povray_jobs_free(jobs.jobs, 2);
+    unlink(in_scratch("go"));
+}
+
+static void run__another_file_closed__the_exit_status_counts(void **state)
+{
+    (void)state;
+    struct jobs jobs = {.count = 0};
+    static struct progress progress;
+    struct error err;
+    int failed;
+    add_job(&jobs, "echo > image.pov-state; exit 3");
+    jobs.jobs[0].image = "image.ppm";
+    assert_int_equal(run_jobs(&jobs, 1, &progress, &failed, &err), RESULT_POVRAY);
+    assert_non_null(strstr(err.text, "exit status 3"));
+    assert_int_equal(failed, 0);
+    povray_jobs_free(jobs.jobs, 1);
+}
+
 static void run__at_once__never_more(void **state)
 {
     (void)state;
@@ -506,6 +585,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(run__all_succeed__finished_with_their_messages),
+        cmocka_unit_test(run__image_closed__done_before_the_process_ends),
+        cmocka_unit_test(end__failed_after_its_image__told),
+        cmocka_unit_test(run__another_file_closed__the_exit_status_counts),
         cmocka_unit_test(run__at_once__never_more),
         cmocka_unit_test(run__one_at_a_time__in_their_order),
         cmocka_unit_test(run__a_held_job__starts_when_it_is_let_go),
