@@ -12,14 +12,13 @@
  * keeps what it has. */
 #define DARK "ambient 0 emission 0 diffuse 0 specular 0 phong 0 irid { 0 }"
 static const char end_base[] = "#if (povgloss_phong >= 0) reflection { 0 } #end";
+#define TOTAL_REFLECTION "reflection { povgloss_mirror_colour() fresnel off falloff 1 exponent 1 metallic 0 }"
 static const char end_mirror[] = DARK "\n"
-                                 "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
-                                 "exponent 1 metallic 0 }\n"
+                                 "  #if (povgloss_phong >= 0) " TOTAL_REFLECTION "\n"
                                  "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
 /* The same where what isn't glossy shines, by which the glossy share of a pixel is known. */
 static const char end_specular[] = DARK "\n"
-                                   "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
-                                   "exponent 1 metallic 0 }\n"
+                                   "  #if (povgloss_phong >= 0) " TOTAL_REFLECTION "\n"
                                    "  #else emission povgloss_marker #if (povgloss_reflects) reflection { 0 } #end #end";
 static const char end_haze[] = DARK "\n"
                                "  #if (povgloss_phong >= 0 | povgloss_reflects) reflection { 0 } #end";

@@ -764,7 +764,7 @@ static enum result run_passes(struct passes *passes, int frame, struct error *er
     struct run run = {.passes = passes, .narrows = passes->scene.glossy && !options->switches->partial};
     const struct buffer none = {0};
     enum result result = passes->margin ? write_camera(passes, &none, err) : RESULT_OK;
-    povray_jobs_free(passes->jobs, passes->job_count);
+    povray_jobs_free(passes->jobs, PASS_COUNT);
     passes->has_view = passes->has_camera = false;
     passes->margin_x = passes->margin_y = 0;
     frames_number(&options->frames, frame, run.number);
@@ -1110,7 +1110,7 @@ enum result passes_close(struct passes *passes, struct error *err)
     struct error ignored;
     int failed;
     end_jobs(passes, &failed, &ignored);
-    povray_jobs_free(passes->jobs, passes->job_count);
+    povray_jobs_free(passes->jobs, PASS_COUNT);
     free_scene(passes);
     reads_free(&passes->reads);
     text_list_free(&passes->command);
