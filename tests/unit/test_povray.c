@@ -50,14 +50,19 @@ static double now_s(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static enum result run_jobs(struct jobs *jobs, int at_once, struct progress *progress, int *failed, struct error *err)
+/* Processes whose image is there may be left. */
+static enum result deliver(struct jobs *jobs, int at_once, struct progress *progress, int *failed, struct error *err)
 {
     char path[512];
     snprintf(path, sizeof path, "PATH=%s", getenv("PATH"));
     char *environment[] = {path, NULL};
     progress->count = 0;
-    enum result result =
-        povray_run(jobs->jobs, jobs->count, at_once, environment, note_progress, progress, failed, err);
+    return povray_run(jobs->jobs, jobs->count, at_once, environment, note_progress, progress, failed, err);
+}
+
+static enum result run_jobs(struct jobs *jobs, int at_once, struct progress *progress, int *failed, struct error *err)
+{
+    enum result result = deliver(jobs, at_once, progress, failed, err);
     /* No process is left in any case. */
     assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
     assert_int_equal(errno, ECHILD);
@@ -96,11 +101,9 @@ static void run__image_closed__done_before_the_process_ends(void **state)
 {
     (void)state;
     struct jobs jobs = {.count = 0};
+    static struct progress progress;
     struct error err;
     int failed, ended = 0;
-    char path[512];
-    snprintf(path, sizeof path, "PATH=%s", getenv("PATH"));
-    char *environment[] = {path, NULL};
     add_job(&jobs, "touch other.ppm; echo > image.ppm; while [ ! -e go ]; do sleep 0.02; done");
     add_job(&jobs, "echo > image2.ppm; while [ ! -e go ]; do sleep 0.02; done");
     jobs.jobs[0].image = "image.ppm";
@@ -109,7 +112,7 @@ static void run__image_closed__done_before_the_process_ends(void **state)
         jobs.jobs[i].ended = count_ended;
         jobs.jobs[i].context = &ended;
     }
-    assert_ok(povray_run(jobs.jobs, 2, 1, environment, NULL, NULL, &failed, &err), err);
+    assert_ok(deliver(&jobs, 1, &progress, &failed, &err), err);
     assert_int_equal(failed, -1);
     assert_int_equal(ended, 2);
     for (int i = 0; i < 2; i++)
@@ -128,16 +131,14 @@ static void end__failed_after_its_image__told(void **state)
 {
     (void)state;
     struct jobs jobs = {.count = 0};
+    static struct progress progress;
     struct error err;
     int failed;
-    char path[512];
-    snprintf(path, sizeof path, "PATH=%s", getenv("PATH"));
-    char *environment[] = {path, NULL};
     add_job(&jobs, "echo > image.ppm; exec sleep 300");
     add_job(&jobs, "echo > image2.ppm; while [ ! -e go ]; do sleep 0.02; done; echo why >&2; exit 3");
     jobs.jobs[0].image = "image.ppm";
     jobs.jobs[1].image = "image2.ppm";
-    assert_ok(povray_run(jobs.jobs, 2, 2, environment, NULL, NULL, &failed, &err), err);
+    assert_ok(deliver(&jobs, 2, &progress, &failed, &err), err);
     write_bytes(in_scratch("go"), "", 0);
     assert_int_equal(povray_end(jobs.jobs, 2, &failed, &err), RESULT_POVRAY);
     assert_non_null(strstr(err.text, "exit status 3"));
