@@ -494,7 +494,7 @@ bool pass_weights_specular(const struct scene *scene)
 
 double pass_marker(const struct scene *scene)
 {
-    return scene->working_gamma == 1 ? -16 : 64;
+    return scene->working_gamma == 1 ? -64 : 64;
 }
 
 struct pass pass_of(const struct scene *scene, enum pass_id id)

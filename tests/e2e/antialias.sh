@@ -40,7 +40,8 @@ only_sky() {
     echo "L0 is off by $off; of what POV-Ray drew some $mixed had to be taken away"
     awk -v off="$off" -v most="$4" -v mixed="$mixed" 'BEGIN { exit !(off <= most && mixed > 1) }'
 }
-check "passes__antialiased__L0_of_what_is_glossy_alone" only_sky 1 0.8 0.8 0.02
+check "passes__antialiased__L0_of_what_is_glossy_alone" only_sky 1 0.8 0.8 0.08
+check "passes__antialiased__bright_L0_of_what_is_glossy_alone" only_sky 1 10 10 0.1
 check "passes__antialiased__L0_of_what_is_glossy_alone__power" only_sky 2.2 0.8 0.6121 0.06
 check "passes__antialiased__L0_of_what_is_glossy_alone__srgb" only_sky srgb 0.8 0.6038 0.06
 
