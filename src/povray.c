@@ -11,12 +11,14 @@
 #include "work_folder.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/inotify.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { MAX_JOBS = 16, POLL_MS = 200, POLL_ENDING_MS = 5, MAX_MESSAGES = 1 << 22 };
@@ -118,7 +120,16 @@ static enum result tell_done(struct povray_job *job, struct error *err)
     return job->ended && !interrupt_signal() ? job->ended(job->context, err) : RESULT_OK;
 }
 
-/* Jobs whose image has been closed have done their work, unless the disk is full. */
+/* Whether the image that was closed may be whole: a file that was only tried is empty, and on a full disk none is whole. */
+static bool is_written(const struct povray_job *job)
+{
+    char path[PATH_MAX];
+    struct stat image;
+    int length = snprintf(path, sizeof path, "%s/%s", job->folder, job->image);
+    return length < (int)sizeof path && stat(path, &image) == 0 && image.st_size > 0 && !folder_is_full(job->folder);
+}
+
+/* Jobs whose image has been closed have done their work. */
 static enum result take_images(struct povray_job *jobs, int count, int notify_fd, struct error *err)
 {
     _Alignas(struct inotify_event) char events[4096];
@@ -130,7 +141,7 @@ static enum result take_images(struct povray_job *jobs, int count, int notify_fd
         for (int i = 0; !result && i < count; i++) {
             struct povray_job *job = &jobs[i];
             if (!is_alive(job) || job->delivered || job->watch != event->wd || !event->len ||
-                strcmp(event->name, job->image) || folder_is_full(job->folder))
+                strcmp(event->name, job->image) || !is_written(job))
                 continue;
             job->delivered = true;
             result = tell_done(job, err);

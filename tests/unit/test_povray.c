@@ -149,14 +149,14 @@ static void end__failed_after_its_image__told(void **state)
     unlink(in_scratch("go"));
 }
 
-static void run__another_file_closed__the_exit_status_counts(void **state)
+static void run__another_or_an_empty_file_closed__the_exit_status_counts(void **state)
 {
     (void)state;
     struct jobs jobs = {.count = 0};
     static struct progress progress;
     struct error err;
     int failed;
-    add_job(&jobs, "echo > image.pov-state; exit 3");
+    add_job(&jobs, "echo > image.pov-state; rm -f image.ppm; : > image.ppm; sleep 0.2; exit 3");
     jobs.jobs[0].image = "image.ppm";
     assert_int_equal(run_jobs(&jobs, 1, &progress, &failed, &err), RESULT_POVRAY);
     assert_non_null(strstr(err.text, "exit status 3"));
@@ -588,7 +588,7 @@ int main(void)
         cmocka_unit_test(run__all_succeed__finished_with_their_messages),
         cmocka_unit_test(run__image_closed__done_before_the_process_ends),
         cmocka_unit_test(end__failed_after_its_image__told),
-        cmocka_unit_test(run__another_file_closed__the_exit_status_counts),
+        cmocka_unit_test(run__another_or_an_empty_file_closed__the_exit_status_counts),
         cmocka_unit_test(run__at_once__never_more),
         cmocka_unit_test(run__one_at_a_time__in_their_order),
         cmocka_unit_test(run__a_held_job__starts_when_it_is_let_go),
