@@ -12,14 +12,12 @@
  * keeps what it has. */
 #define DARK "ambient 0 emission 0 diffuse 0 specular 0 phong 0 irid { 0 }"
 static const char end_base[] = "#if (povgloss_phong >= 0) reflection { 0 } #end";
-#define TOTAL_REFLECTION "reflection { povgloss_mirror_colour() fresnel off falloff 1 exponent 1 metallic 0 }"
+/* In a marked pass what isn't glossy shines, by which the glossy share of a pixel is known. */
+#define MARK "#ifdef (povgloss_marker) emission povgloss_marker #end"
 static const char end_mirror[] = DARK "\n"
-                                 "  #if (povgloss_phong >= 0) " TOTAL_REFLECTION "\n"
-                                 "  #else #if (povgloss_reflects) reflection { 0 } #end #end";
-/* The same where what isn't glossy shines, by which the glossy share of a pixel is known. */
-static const char end_specular[] = DARK "\n"
-                                   "  #if (povgloss_phong >= 0) " TOTAL_REFLECTION "\n"
-                                   "  #else emission povgloss_marker #if (povgloss_reflects) reflection { 0 } #end #end";
+                                 "  #if (povgloss_phong >= 0) reflection { povgloss_mirror_colour() fresnel off falloff 1 "
+                                 "exponent 1 metallic 0 }\n"
+                                 "  #else " MARK " #if (povgloss_reflects) reflection { 0 } #end #end";
 static const char end_haze[] = DARK "\n"
                                "  #if (povgloss_phong >= 0 | povgloss_reflects) reflection { 0 } #end";
 /* The same where a glossy finish keeps its reflectivity: any other reflects something next to white (to the power
@@ -95,7 +93,7 @@ const struct pass pass_table[PASS_COUNT] = {
                        .marked = true,
                        .mirror_colour = mirror_white,
                        .first = {.copy = SCENE_COPY_PLAIN, .modifiers = SEEN_IN_MIRRORS},
-                       .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_specular},
+                       .second = {.copy = SCENE_COPY_MIRROR_SECOND, .modifiers = MIRRORS, .finish_end = end_mirror},
                        .trailer = marker_sky},
     [PASS_HAZE] = {.name = "haze",
                    .margin = true,
@@ -414,8 +412,7 @@ static enum result add_finish_macros(const struct scene *scene, const struct pas
                                part->placed_once ? "#if (povgloss_depth = 0) povgloss_modifiers() } #end" : "",
                                part->placed_once ? "#if (povgloss_depth = 0) union { povgloss_nothing() #end" : "");
     if (!result && !is_base(part))
-        result = buffer_printf(text, err, "#default { pigment { povgloss_pigment } finish { " DARK " %s } }\n",
-                               pass->marked ? "emission povgloss_marker" : "");
+        result = buffer_add_text(text, "#default { pigment { povgloss_pigment } finish { " DARK " " MARK " } }\n", err);
     return result;
 }
 
@@ -516,8 +513,6 @@ struct pass pass_of(const struct scene *scene, enum pass_id id)
     if (pass.marked && pass_needed(scene, PASS_HAZE)) {
         pass.marked = false;
         pass.trailer = NULL;
-        if (!pass_weights_specular(scene))
-            pass.second.finish_end = end_mirror;
     }
     /* An aperture sees glossy surfaces beyond the silhouettes of codes, which have none. */
     if (id == pass_of_glossy(scene) || (scene->focal_blur && !pass.codes))

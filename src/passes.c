@@ -469,7 +469,7 @@ static enum result prepare_environment(struct passes *passes, struct error *err)
 static void add_wall_times(const struct passes *passes, const struct povray_job *jobs, int count)
 {
     for (int i = 0; i < count; i++)
-        if (jobs[i].finished || jobs[i].delivered)
+        if (jobs[i].delivered)
             timings_add_povray(passes->options->timings, jobs[i].name, jobs[i].start_s, jobs[i].wall_s, 0);
 }
 
@@ -628,7 +628,7 @@ static struct povray_job *job_of(struct passes *passes, enum pass_id id)
 static bool has_ended(struct passes *passes, enum pass_id id)
 {
     const struct povray_job *job = job_of(passes, id);
-    return !job || job->finished || job->delivered;
+    return !job || job->delivered;
 }
 
 /* What the passes with a margin include: nothing as long as the camera isn't known. */

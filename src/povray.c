@@ -93,7 +93,7 @@ static bool is_alive(const struct povray_job *job)
 
 static bool is_done(const struct povray_job *job)
 {
-    return job->finished || job->delivered || job->dropped;
+    return job->delivered || job->dropped;
 }
 
 static bool are_done(const struct povray_job *jobs, int count)
@@ -116,6 +116,7 @@ static void report(const struct povray_job *jobs, int count, povray_progress *pr
 
 static enum result tell_done(struct povray_job *job, struct error *err)
 {
+    job->delivered = true;
     job->wall_s = timings_clock_s() - job->start_s;
     return job->ended && !interrupt_signal() ? job->ended(job->context, err) : RESULT_OK;
 }
@@ -143,7 +144,6 @@ static enum result take_images(struct povray_job *jobs, int count, int notify_fd
             if (!is_alive(job) || job->delivered || job->watch != event->wd || !event->len ||
                 strcmp(event->name, job->image) || !is_written(job))
                 continue;
-            job->delivered = true;
             result = tell_done(job, err);
         }
     }

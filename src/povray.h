@@ -28,7 +28,7 @@ struct povray_job {
     double start_s, end_s;  /* of timings_clock_s; the end is that of the timeout, infinite: none */
     double wall_s;          /* how long its work took, once that is done */
     int watch;              /* the folder's, of inotify; -1: none */
-    bool started, delivered, finished; /* delivered: the image is there, and the process only has to end */
+    bool started, delivered, finished; /* delivered: its work is done, and the process may still have to end */
 };
 
 /* Is told from time to time how much of all the work is done, 0 to 1; NULL: nobody is. */

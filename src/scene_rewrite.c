@@ -717,7 +717,7 @@ static enum result write_coded_material(struct writer *writer, int token, int la
     enum result result =
         insert_after(writer, token + 1, " povgloss_no_interior() #declare povgloss_last = povgloss_none; ", err);
     if (!result)
-        result = inherit_state(writer, token + 2, "povgloss_last", writer->rules->places ? "povgloss_count(povgloss_last) " : "", err);
+        result = inherit_state(writer, token + 2, "povgloss_last", "", err);
     if (!result && name >= 0)
         result = buffer_printf(&writer->out, err,
                                " #ifdef (povgloss_interior_of_%d) #declare povgloss_interior = interior { "
