@@ -36,9 +36,10 @@ VIEWER := $(BUILD)/lib/povgloss/view
 ISAS := sse2 avx2 avx512
 KERNELS := filter_kernel filter_sight
 KERNEL_OBJECTS := $(foreach kernel,$(KERNELS),$(ISAS:%=$(BUILD)/obj/$(kernel)_%.o))
-# Loaded into POV-Ray for --depfile.
-PRELOAD := $(BUILD)/lib/povgloss/reads.so
-LIB_SOURCES := $(filter-out src/main_%.c $(KERNELS:%=src/%.c) src/preload_reads.c,$(wildcard src/*.c))
+# Loaded into POV-Ray: its waits are shorter, and what it reads is noted for --depfile.
+PRELOAD := $(BUILD)/lib/povgloss/preload.so
+PRELOAD_SOURCES := src/preload_reads.c src/preload_waits.c
+LIB_SOURCES := $(filter-out src/main_%.c $(KERNELS:%=src/%.c) $(PRELOAD_SOURCES),$(wildcard src/*.c))
 LIB_OBJECTS := $(LIB_SOURCES:src/%.c=$(BUILD)/obj/%.o) $(if $(wildcard src/filter_kernel.c),$(KERNEL_OBJECTS))
 LIBRARY := $(BUILD)/libgloss.a
 # What is installed of it has the functions of gloss.h, and no other name that could meet a user's.
@@ -89,7 +90,7 @@ $(BUILD)/obj/%.o: src/%.c $(FLAGS_STAMP)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
 
 # POV-Ray isn't sanitized, and what is loaded into it can't be either; nor what stands before a sanitizer's own calls.
-$(PRELOAD): src/preload_reads.c
+$(PRELOAD): $(PRELOAD_SOURCES)
 $(BUILD)/tests/tools/faults.so: tests/tools/preload_faults.c
 $(PRELOAD) $(BUILD)/tests/tools/faults.so: $(FLAGS_STAMP)
 	@mkdir -p $(@D)

@@ -33,7 +33,7 @@ printf 'Source: povgloss\nPackage: povgloss\nArchitecture: any\n' > "$work/debia
 # The window of glossfilter --view is there where SDL2 was; what it needs is recommended.
 viewer=()
 [ ! -e "$tree/usr/lib/povgloss/view" ] || viewer=(-dRecommends tree/usr/lib/povgloss/view)
-(cd "$work" && dpkg-shlibdeps -O tree/usr/bin/* tree/usr/lib/povgloss/reads.so "${viewer[@]}" > libraries 2> log) ||
+(cd "$work" && dpkg-shlibdeps -O tree/usr/bin/* tree/usr/lib/povgloss/preload.so "${viewer[@]}" > libraries 2> log) ||
     { cat "$work/log" >&2; exit 1; }
 libraries=$(sed -n 's/^shlibs:Depends=//p' "$work/libraries")
 window=$(sed -n 's/^shlibs:Recommends=/, /p' "$work/libraries")

@@ -5,7 +5,7 @@
 #include "error.h"
 
 /* The real path of a file or folder in a new string, which the caller frees: `name` is relative to the folder above the
- * program's ("lib/povgloss/reads.so"). RESULT_DATA if it isn't there. */
+ * program's ("lib/povgloss/preload.so"). RESULT_DATA if it isn't there. */
 MUST_CHECK enum result own_file(const char *name, char **path, struct error *err);
 
 #endif

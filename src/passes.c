@@ -9,6 +9,7 @@
 #include "own_files.h"
 #include "pass_images.h"
 #include "picture_check.h"
+#include "preload.h"
 #include "reads.h"
 #include "sandbox.h"
 #include "scene_discover.h"
@@ -244,8 +245,8 @@ static enum result find_command(struct passes *passes, struct error *err)
         result = program_find(name, &program, err);
     if (!result && passes->options->sandbox && !program)
         result = povray_missing(name, err);
-    if (!result && passes->options->sandbox && passes->options->reads)
-        result = text_printf(&object, err, "%s/reads.so", passes->folder.path);
+    if (!result && passes->options->sandbox && passes->preload)
+        result = text_printf(&object, err, "%s/" PRELOAD_LINK, passes->folder.path);
     if (!result && passes->options->sandbox)
         result = sandbox_begin(passes->folder.path, &passes->directories, (const char *const[]){program, object}, 2,
                                &passes->command, err);
@@ -437,8 +438,7 @@ static enum result report_failure(const struct passes *passes, const struct povr
     return RESULT_POVRAY;
 }
 
-/* The environment, but for the .ini file that POV-Ray reads by itself, which the switches hold, and with LD_PRELOAD
- * where what is read is to be noted. */
+/* The environment, but for the .ini file that POV-Ray reads by itself, which the switches hold, and with LD_PRELOAD. */
 static enum result make_environment(struct passes *passes, struct error *err)
 {
     static char no_ini[] = "POVINI=../" EMPTY_INI;
@@ -456,13 +456,25 @@ static enum result make_environment(struct passes *passes, struct error *err)
     return RESULT_OK;
 }
 
+/* Without the shared object POV-Ray takes longer, and what it reads can't be noted. */
+static enum result prepare_preload(struct passes *passes, struct error *err)
+{
+    struct error missing;
+    enum result result = preload_begin(&passes->folder, &missing);
+    if (!result)
+        return preload_variable(&passes->preload, err);
+    if (passes->options->reads)
+        *err = missing;
+    return passes->options->reads ? result : RESULT_OK;
+}
+
 static enum result prepare_environment(struct passes *passes, struct error *err)
 {
     enum result result = write_empty_ini(passes, err);
     if (!result && passes->options->reads)
         result = reads_begin(&passes->folder, err);
-    if (!result && passes->options->reads)
-        result = reads_variable(&passes->preload, err);
+    if (!result)
+        result = prepare_preload(passes, err);
     return result ? result : make_environment(passes, err);
 }
 

@@ -2,7 +2,7 @@
  * of file a process is watched until it has ended.
  *
  * POV-Ray writes everything there: banner, options, warnings, errors, and its progress. It closes its image when that is
- * whole, and then sleeps for half a second before it ends.
+ * whole, some tenths of a second before it ends.
  */
 #include "povray.h"
 

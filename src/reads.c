@@ -3,7 +3,6 @@
 #include "reads.h"
 
 #include "input_file.h"
-#include "own_files.h"
 #include "scene_rewrite.h"
 
 #include <stdio.h>
@@ -16,7 +15,7 @@ void reads_free(struct reads *reads)
     buffer_free(&reads->written);
 }
 
-static enum result empty_log(const struct work_folder *folder, struct error *err)
+enum result reads_begin(const struct work_folder *folder, struct error *err)
 {
     char *path;
     enum result result = text_printf(&path, err, "%s/reads.log", folder->path);
@@ -24,22 +23,6 @@ static enum result empty_log(const struct work_folder *folder, struct error *err
         result = file_write(path, &(struct buffer){0}, err);
     free(path);
     return result;
-}
-
-enum result reads_begin(const struct work_folder *folder, struct error *err)
-{
-    char *object;
-    enum result result = own_file("lib/povgloss/reads.so", &object, err);
-    if (!result)
-        result = work_folder_link(folder, "reads.so", object, err);
-    free(object);
-    return result ? result : empty_log(folder, err);
-}
-
-enum result reads_variable(char **variable, struct error *err)
-{
-    const char *old = getenv("LD_PRELOAD");
-    return text_printf(variable, err, "LD_PRELOAD=../reads.so%s%s", old ? ":" : "", old ? old : "");
 }
 
 static bool is_below(const char *path, const char *directory)
@@ -144,7 +127,7 @@ enum result reads_collect(const struct work_folder *folder, const struct reads_p
                            places->scene->files[0].path);
     input_file_free(&log);
     free(path);
-    return result ? result : empty_log(folder, err);
+    return result ? result : reads_begin(folder, err);
 }
 
 enum result reads_list(const struct reads *reads, const char *scene, const struct text_list *ini_files,

@@ -1,4 +1,4 @@
-/* The files that POV-Ray read: a shared object that is loaded into it (preload_reads.c) notes them in the work folder's
+/* The files that POV-Ray read: the shared object that is loaded into it (preload.h) notes them in the work folder's
  * reads.log, and this turns them into the names that the user knows. */
 #ifndef POVGLOSS_READS_H
 #define POVGLOSS_READS_H
@@ -21,12 +21,8 @@ struct reads {
 
 void reads_free(struct reads *reads);
 
-/* Makes the empty log and the link to the shared object, lib/povgloss/reads.so (own_files.h).
- * RESULT_DATA where that isn't there. */
+/* Makes the empty log. */
 MUST_CHECK enum result reads_begin(const struct work_folder *folder, struct error *err);
-
-/* The variable LD_PRELOAD=... for the environment of POV-Ray, with what it holds now. The caller frees it. */
-MUST_CHECK enum result reads_variable(char **variable, struct error *err);
 
 /* Takes the names out of the log, which is empty then. Left out are files below /usr, /etc, /proc and /sys, unless one
  * of the directories led to them. RESULT_DATA if there was nothing in the log. */

@@ -239,7 +239,7 @@ check "a povray whose reading can't be noted" not_preloaded
 own_preload() {
     printf '#!/bin/sh\necho "$LD_PRELOAD" > %q\nexec %q "$@"\n' "$PWD/seen" "$(command -v povray)" > fake/povray
     LD_PRELOAD=libm.so.6 "$bin/povgloss" render 'my scene.pov' '+Llib $1' size.ini -A --quiet --depfile own.d \
-        --povray fake/povray -o 'my picture$.png' && cmp own.d picture.d && grep -q 'reads.so:libm.so.6' seen
+        --povray fake/povray -o 'my picture$.png' && cmp own.d picture.d && grep -q 'preload.so:libm.so.6' seen
 }
 # A sanitizer wants to be loaded first.
 case $bin in

@@ -10,10 +10,10 @@ installed=$tree$prefix
 unset MAKEFLAGS MAKELEVEL MFLAGS SANITIZE
 make=(make --no-print-directory "CC=${CC:-gcc}" "PREFIX=$prefix")
 
-files='bin/glossfilter bin/povgloss include/gloss.h lib/libgloss.a lib/pkgconfig/libgloss.pc lib/povgloss/reads.so
+files='bin/glossfilter bin/povgloss include/gloss.h lib/libgloss.a lib/pkgconfig/libgloss.pc lib/povgloss/preload.so
 share/bash-completion/completions/glossfilter share/bash-completion/completions/povgloss share/man/man1/glossfilter.1
 share/man/man1/povgloss.1 share/man/man5/povgloss-passes.5 share/povgloss/include/povgloss.inc'
-if pkg-config --exists sdl2; then files=${files/reads.so/reads.so lib/povgloss/view}; fi
+if pkg-config --exists sdl2; then files=${files/preload.so/preload.so lib/povgloss/view}; fi
 installs() {
     "${make[@]}" "DESTDIR=$tree" install || return 1
     [ "$(cd "$installed" && find . -type f -printf '%P\n' | sort)" = "$(tr ' ' '\n' <<< "$files")" ] ||

@@ -3,13 +3,13 @@
 # alone; OpenEXR's and libpng's headers stay out of ours.
 . tests/e2e/lib.sh
 
-rows='error preload_reads
+rows='error preload_reads preload_waits
 interrupt cpu mem lobe gamma timings
 image gbuffer weights bands own_files input_file output_file frames
 exr_io png_io ppm_io control_variate position_code eye camera interpolate filter_weight filter_kernel filter_sight sheet child scene_lexer scene_names gloss_choice ini_file povray_switches work_folder depfile
 channels picture passes_file passes_check image_file filter filter_internal filter_cells filter_visibility filter_walk filter_fast gloss compose probe picture_check povray sandbox scene scene_tokens scene_discover scene_surfaces scene_unions scene_uses
 scene_rewrite scene_list
-pass_scene pass_images reads probe_file
+pass_scene pass_images preload reads probe_file
 passes
 cli
 command
