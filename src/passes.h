@@ -82,7 +82,8 @@ MUST_CHECK enum result passes_view(struct passes *passes, int frame, const struc
 /* Adds the files that POV-Ray and povgloss read for the frames that were rendered to *files, as reads_list does. */
 MUST_CHECK enum result passes_reads(const struct passes *passes, struct buffer *files, struct error *err);
 
-/* Waits for the ends of POV-Ray's processes, some tenths of a second after their images: the next frame does so, and passes_close, but
+/* Waits for the ends of POV-Ray's processes, some tenths of a second after their images: the next frame does so, and
+ * passes_close, but
  * a frame is right only if none failed. NULL is allowed, here and below. */
 MUST_CHECK enum result passes_settle(struct passes *passes, struct error *err);
 
