@@ -5,6 +5,8 @@
  */
 #include "filter_cells.h"
 
+#include "bands.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -142,34 +144,47 @@ static struct filter_cell cell_of(const struct children *children)
     return cell;
 }
 
+/* A level that is being built from the one below. */
+struct level {
+    const struct filter *filter;
+    struct filter_cells *cells;
+    int k;
+};
+
+static void rows_build(void *context, int first, int end)
+{
+    const struct level *level = context;
+    const struct filter_cells *cells = level->cells;
+    const int k = level->k, width = cells->width[k], below_width = cells->width[k - 1];
+    for (int y = first; y < end; y++)
+        for (int x = 0; x < width; x++) {
+            struct children children = {.farthest = INFINITY};
+            for (int v = 2 * y; v < 2 * y + 2 && v < cells->height[k - 1]; v++)
+                for (int u = 2 * x; u < 2 * x + 2 && u < below_width; u++) {
+                    if (k == 1)
+                        pixel_add(level->filter, u, v, &children);
+                    else
+                        cell_add(&cells->level[k - 1][(size_t)v * (size_t)below_width + (size_t)u], &children);
+                }
+            cells->level[k][(size_t)y * (size_t)width + (size_t)x] = cell_of(&children);
+        }
+}
+
 enum result filter_cells_build(const struct filter *filter, struct filter_cells *cells, struct error *err)
 {
     enum result result = RESULT_OK;
     *cells = (struct filter_cells){.width = {filter->taps.width}, .height = {filter->taps.height}};
     for (int k = 1; k < CELL_LEVELS && result == RESULT_OK; k++) {
-        const int below_width = cells->width[k - 1], below_height = cells->height[k - 1];
-        const int width = (below_width + 1) / 2, height = (below_height + 1) / 2;
+        struct level level = {filter, cells, k};
+        const int width = (cells->width[k - 1] + 1) / 2, height = (cells->height[k - 1] + 1) / 2;
         const size_t count = (size_t)width * (size_t)height;
         cells->width[k] = width;
         cells->height[k] = height;
         cells->level[k] = calloc(count, sizeof *cells->level[k]);
-        if (!cells->level[k]) {
+        if (!cells->level[k])
             result = error_memory(err, (double)count * (double)sizeof *cells->level[k]);
-            break;
-        }
-        for (size_t i = 0; i < count; i++) {
-            struct children children = {.farthest = INFINITY};
-            const int x = 2 * (int)(i % (size_t)width), y = 2 * (int)(i / (size_t)width);
-            for (int v = y; v < y + 2 && v < below_height; v++)
-                for (int u = x; u < x + 2 && u < below_width; u++) {
-                    const size_t child = (size_t)v * (size_t)below_width + (size_t)u;
-                    if (k == 1)
-                        pixel_add(filter, u, v, &children);
-                    else
-                        cell_add(&cells->level[k - 1][child], &children);
-                }
-            cells->level[k][i] = cell_of(&children);
-        }
+        else
+            result = bands_run(height, 8, filter->options->threads, rows_build, &level, err);
     }
     return result;
 }

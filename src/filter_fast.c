@@ -195,13 +195,21 @@ static void rate_add(struct rate *sum, struct rate rate)
     sum->border = sum->border || rate.border;
 }
 
-/* Rates of level k's blocks, of pixels or of the blocks of the level below. */
-static void rates_fill(struct fast *fast, int k)
+/* A level that is being filled. */
+struct level {
+    struct fast *fast;
+    int k, pass; /* of level_fill */
+};
+
+/* Rates of rows of a level's blocks, of pixels or of the blocks of the level below. */
+static void rates_fill(void *context, int first, int end)
 {
-    const int factor = k == 0 ? SIDE : 2;
+    const struct level *level = context;
+    const struct fast *fast = level->fast;
+    const int k = level->k, factor = k == 0 ? SIDE : 2;
     const int width = k == 0 ? fast->filter->taps.width : fast->across[k - 1];
     const int height = k == 0 ? fast->filter->taps.height : fast->down[k - 1];
-    for (int y = 0; y < fast->down[k]; y++)
+    for (int y = first; y < end; y++)
         for (int x = 0; x < fast->across[k]; x++) {
             struct rate rate = {.phong_low = INFINITY, .phong_high = -1};
             for (int v = y * factor; v < (y + 1) * factor; v++)
@@ -219,7 +227,9 @@ static void rates_fill(struct fast *fast, int k)
 
 static enum result rates_build(struct fast *fast, struct error *err)
 {
-    for (int k = 0; k < BLOCK_LEVELS; k++) {
+    enum result result = RESULT_OK;
+    for (int k = 0; !result && k < BLOCK_LEVELS; k++) {
+        struct level level = {.fast = fast, .k = k};
         const int size = SIDE << k;
         fast->across[k] = (fast->filter->taps.width + size - 1) / size;
         fast->down[k] = (fast->filter->taps.height + size - 1) / size;
@@ -227,9 +237,9 @@ static enum result rates_build(struct fast *fast, struct error *err)
         fast->rates[k] = malloc(count * sizeof *fast->rates[k]);
         if (!fast->rates[k])
             return error_memory(err, (double)count * (double)sizeof *fast->rates[k]);
-        rates_fill(fast, k);
+        result = bands_run(fast->down[k], 4, fast->filter->options->threads, rates_fill, &level, err);
     }
-    return RESULT_OK;
+    return result;
 }
 
 /* The rate of a block of level k, with the exponents of the call. */
@@ -669,17 +679,32 @@ static void interpolate(struct fast *fast, int x, int y)
     fast->known[pixel_of(fast, x, y)] = 1;
 }
 
-/* All pixels whose block's are 2^k apart or more get results `2^k / 2` apart: first between those of a row, then
- * between rows. */
-static void level_fill(struct fast *fast, int k)
+/* All pixels of some rows whose block's are 2^k apart or more get results `2^k / 2` apart: those between others of a row
+ * (pass 0), or between rows (1). */
+static void rows_fill(void *context, int first, int end)
 {
-    const int apart = 1 << k, half = apart / 2;
-    for (int pass = 0; pass < 2; pass++)
-        for (int y = pass == 0 ? 0 : half; y < fast->filter->taps.height; y += apart)
-            for (int x = pass == 0 ? half : 0; x < fast->filter->taps.width; x += pass == 0 ? apart : half)
-                if (fast->apart[pixel_of(fast, x, y)] >= k && !fast->known[pixel_of(fast, x, y)] &&
-                    filter_is_glossy(fast->filter, x, y))
-                    interpolate(fast, x, y);
+    const struct level *level = context;
+    struct fast *fast = level->fast;
+    const int apart = 1 << level->k, half = apart / 2, pass = level->pass;
+    for (int row = first; row < end; row++)
+        for (int x = pass == 0 ? half : 0; x < fast->filter->taps.width; x += pass == 0 ? apart : half) {
+            const int y = row * apart + pass * half;
+            if (y < fast->filter->taps.height && fast->apart[pixel_of(fast, x, y)] >= level->k &&
+                !fast->known[pixel_of(fast, x, y)] && filter_is_glossy(fast->filter, x, y))
+                interpolate(fast, x, y);
+        }
+}
+
+static enum result levels_fill(struct fast *fast, struct error *err)
+{
+    enum result result = RESULT_OK;
+    for (int k = BLOCK_LEVELS - 1; k > 0; k--)
+        for (int pass = 0; pass < 2 && !result; pass++) {
+            struct level level = {fast, k, pass};
+            const int rows = (fast->filter->taps.height + (1 << k) - 1) >> k;
+            result = bands_run(rows, 16, fast->filter->options->threads, rows_fill, &level, err);
+        }
+    return result;
 }
 
 void filter_fast_free(struct fast *fast)
@@ -730,8 +755,8 @@ enum result filter_fast(struct filter *filter, struct error *err)
         result = bands_run(fast->down[BLOCK_LEVELS - 1], 1, filter->options->threads, rows_do, fast, err);
     if (result == RESULT_OK && atomic_load(&filter->out_of_memory))
         result = error_memory(err, sights_bytes);
-    for (int k = BLOCK_LEVELS - 1; k > 0 && result == RESULT_OK; k--)
-        level_fill(fast, k);
+    if (result == RESULT_OK)
+        result = levels_fill(fast, err);
     free(fast->apart);
     free(fast->known);
     return result;

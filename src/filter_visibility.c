@@ -1,6 +1,8 @@
 /* Tiles of taps, and the four marches of sight_march() from a pixel put together. */
 #include "filter_visibility.h"
 
+#include "bands.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,6 +61,15 @@ static void tile_fill(const struct filter *filter, int left, int top, struct sig
     }
 }
 
+static void tiles_fill(void *context, int first, int end)
+{
+    const struct filter_visibility *visibility = context;
+    const int across = visibility->across;
+    for (int i = first * across; i < end * across; i++)
+        tile_fill(visibility->filter, i % across * SIGHT_TILE, i / across * SIGHT_TILE, &visibility->tiles[i],
+                  &visibility->taps[i]);
+}
+
 enum result filter_visibility_build(const struct filter *filter, struct filter_visibility *visibility,
                                     struct error *err)
 {
@@ -76,9 +87,7 @@ enum result filter_visibility_build(const struct filter *filter, struct filter_v
                                              .columns = {tiles, taps, height, width, across, 1, true}};
     if (!tiles || !taps)
         return error_memory(err, (double)count * (double)(sizeof *tiles + sizeof *taps));
-    for (int i = 0; i < across * down; i++)
-        tile_fill(filter, i % across * SIGHT_TILE, i / across * SIGHT_TILE, &tiles[i], &taps[i]);
-    return RESULT_OK;
+    return bands_run(down, 1, filter->options->threads, tiles_fill, visibility, err);
 }
 
 void filter_visibility_free(struct filter_visibility *visibility)

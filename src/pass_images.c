@@ -2,6 +2,7 @@
  * pass_scene.c for how each was coded. */
 #include "pass_images.h"
 
+#include "bands.h"
 #include "exr_io.h"
 #include "eye.h"
 #include "gamma.h"
@@ -496,6 +497,77 @@ static enum result make_dull(struct gbuffer *gbuffer, struct error *err)
     return result;
 }
 
+enum part { PART_ENDPOINT, PART_POSITION, PART_SPECULAR, PART_REFLECTANCE, PARTS };
+
+/* What is read by several threads: all but the exponents, by which the endpoints are decoded. */
+struct reading {
+    const struct pass_images *images;
+    struct gbuffer *gbuffer;
+    const struct image *exponents;
+    enum result results[PARTS];
+    struct error errors[PARTS];
+};
+
+static enum result read_specular(const struct pass_images *images, struct image *specular, struct error *err)
+{
+    enum result result = pass_images_radiance(images, PASS_SPECULAR, specular, err);
+    return !result && pass_needed(images->scene, PASS_HAZE) ? clear_haze(images, specular, err) : result;
+}
+
+static enum result read_reflectance(const struct pass_images *images, struct image *reflectance, struct error *err)
+{
+    enum result result = pass_images_radiance(images, PASS_REFLECTANCE, reflectance, err);
+    if (!result)
+        scale_reflectance(reflectance, images->scene->working_gamma);
+    return result;
+}
+
+static enum result read_position(const struct pass_images *images, struct image *position, struct error *err)
+{
+    enum result result = read_coded(images, PASS_POSITION, PASS_POSITION_LOW, NULL, position, err);
+    return result ? result : drop_w(position, err);
+}
+
+static void read_parts(void *context, int first, int end)
+{
+    struct reading *reading = context;
+    const struct pass_images *images = reading->images;
+    struct gbuffer *gbuffer = reading->gbuffer;
+    for (int part = first; part < end; part++) {
+        struct error *err = &reading->errors[part];
+        enum result *result = &reading->results[part];
+        switch ((enum part)part) {
+        case PART_ENDPOINT:
+            *result = read_coded(images, PASS_ENDPOINT, PASS_ENDPOINT_LOW, reading->exponents, &gbuffer->endpoint, err);
+            break;
+        case PART_POSITION:
+            *result = read_position(images, &gbuffer->position, err);
+            break;
+        case PART_SPECULAR:
+            *result = read_specular(images, &gbuffer->specular, err);
+            break;
+        case PART_REFLECTANCE:
+            *result = read_reflectance(images, &gbuffer->reflectance, err);
+            break;
+        case PARTS:
+            break;
+        }
+    }
+}
+
+/* Those of what is glossy. */
+static enum result read_all(const struct pass_images *images, const struct image *exponents, struct gbuffer *gbuffer,
+                            struct error *err)
+{
+    struct reading reading = {.images = images, .gbuffer = gbuffer, .exponents = exponents};
+    enum result result = bands_run(PARTS, 1, 0, read_parts, &reading, err);
+    for (int part = 0; !result && part < PARTS; part++) {
+        result = reading.results[part];
+        *err = result ? reading.errors[part] : *err;
+    }
+    return result;
+}
+
 enum result pass_images_read(const struct pass_images *images, struct gbuffer *gbuffer, struct error *note,
                              struct error *err)
 {
@@ -510,24 +582,12 @@ enum result pass_images_read(const struct pass_images *images, struct gbuffer *g
     if (!result && means.pixels && !same_size(&means, &codes))
         result = error_set(err, RESULT_DATA, "%s: POV-Ray's images of the exponents are of different sizes", images->name);
     if (!result)
-        result = pass_images_radiance(images, PASS_SPECULAR, &gbuffer->specular, err);
-    if (!result && pass_needed(images->scene, PASS_HAZE))
-        result = clear_haze(images, &gbuffer->specular, err);
-    if (!result)
-        result = pass_images_radiance(images, PASS_REFLECTANCE, &gbuffer->reflectance, err);
-    if (!result)
-        result = read_coded(images, PASS_POSITION, PASS_POSITION_LOW, NULL, &gbuffer->position, err);
-    if (!result)
-        result = drop_w(&gbuffer->position, err);
-    if (!result)
-        result = read_coded(images, PASS_ENDPOINT, PASS_ENDPOINT_LOW, &codes, &gbuffer->endpoint, err);
+        result = read_all(images, &codes, gbuffer, err);
     if (!result)
         result = images->camera ? widen(images, gbuffer, err)
                                 : read_directions(images, gbuffer->position.width, gbuffer->position.height, &directions, err);
     if (!result)
         result = alloc_exponents(gbuffer, &codes, err);
-    if (!result)
-        scale_reflectance(&gbuffer->reflectance, images->scene->working_gamma);
     if (!result)
         result = check_sizes(images, gbuffer, &directions, err);
     if (!result) {
