@@ -326,6 +326,13 @@ static enum result add_all(struct text_list *arguments, const char *const *texts
     return result;
 }
 
+/* Reflectivities are small, and their edges show as much as those of the picture, which multiplies them by what is
+ * bright. */
+static double reflectance_threshold(double threshold)
+{
+    return fmin(threshold, fmax(threshold / 3, 0.01));
+}
+
 /* The user's switches first, then those on which the pass depends: POV-Ray takes the last one. */
 static enum result job_arguments(const struct passes *passes, enum pass_id id, int frame, struct text_list *arguments,
                                  struct error *err)
@@ -350,9 +357,8 @@ static enum result job_arguments(const struct passes *passes, enum pass_id id, i
         result = add_own_size(passes, arguments, err);
     if (!result && (id == PASS_VIEW || pass_is_place(id)))
         result = add_few_pixels(passes, arguments, err);
-    /* Reflectivities are small, and their edges show as much as those of the picture. */
     if (!result && id == PASS_REFLECTANCE && switches->antialias)
-        result = text_list_add(arguments, err, "+A0.01");
+        result = text_list_add(arguments, err, "+A%g", reflectance_threshold(switches->threshold));
     if (!result && pass.smooth)
         result = add_all(arguments, smooth, err);
     if (!result && pass.technical)

@@ -101,8 +101,10 @@ static void note(struct povray_switches *switches, const char *argument)
     note_number(argument, "SF", "Subset_Start_Frame", &frames->subset_start);
     note_number(argument, "EF", "Subset_End_Frame", &frames->subset_end);
     note_switch(argument, "KC", "Cyclic_Animation", &frames->cyclic);
-    if (!value_of(argument, "AM", "Sampling_Method"))
+    if (!value_of(argument, "AM", "Sampling_Method")) {
         note_switch(argument, "A", "Antialias", &switches->antialias);
+        note_number(argument, "A", "Antialias_Threshold", &switches->threshold);
+    }
     switches->partial |= is_partial(argument);
     int width = size_of(argument, "W", "Width"), height = size_of(argument, "H", "Height");
     switches->width = width ? width : switches->width;
@@ -221,7 +223,7 @@ static enum result find_defaults(char **path, struct error *err)
 
 enum result povray_switches_begin(struct povray_switches *switches, struct error *err)
 {
-    *switches = (struct povray_switches){.frames = frames_options_default()};
+    *switches = (struct povray_switches){.frames = frames_options_default(), .threshold = 0.3};
     char *defaults;
     enum result result = find_defaults(&defaults, err);
     if (!result && defaults)

@@ -18,6 +18,7 @@ struct povray_switches {
     struct frames_options frames;
     int width, height; /* 0: not said */
     bool antialias;
+    double threshold; /* of antialiasing; without any POV-Ray's 0.3 */
     bool partial; /* some rows or columns only */
     int depth; /* of .ini files that read others */
 };

@@ -3,6 +3,7 @@
 
 #include "gloss_support.h"
 
+#include <math.h>
 #include <unistd.h>
 
 static void is__switches_settings_and_ini_files__yes(void **state)
@@ -168,6 +169,25 @@ static void take__antialiasing__last_wins(void **state)
         struct povray_switches switches;
         take_all(&switches, cases[i].arguments, 2);
         if (switches.antialias != cases[i].antialias)
+            fail_msg("%s %s", cases[i].arguments[0], cases[i].arguments[1]);
+        povray_switches_free(&switches);
+    }
+}
+
+static void take__antialiasing__has_threshold(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *arguments[2];
+        double threshold;
+    } cases[] = {
+        {{"+A", "+W9"}, 0.3},      {{"+a0.1", "+AM2"}, 0.1},          {{"+A0.1", "-A"}, 0.1}, {{"+AM1", "+A.05"}, 0.05},
+        {{"+A0.2", "+A0.1"}, 0.1}, {{"antialias_threshold=0.25", "Antialias=on"}, 0.25},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct povray_switches switches;
+        take_all(&switches, cases[i].arguments, 2);
+        if (fabs(switches.threshold - cases[i].threshold) > 1e-12)
             fail_msg("%s %s", cases[i].arguments[0], cases[i].arguments[1]);
         povray_switches_free(&switches);
     }
@@ -362,6 +382,7 @@ int main(void)
         cmocka_unit_test(take__libraries_and_scene__taken_out),
         cmocka_unit_test(take__what_povgloss_decides__refused_with_a_cure),
         cmocka_unit_test(take__antialiasing__last_wins),
+        cmocka_unit_test(take__antialiasing__has_threshold),
         cmocka_unit_test(take__frames__read_and_passed),
         cmocka_unit_test(take__ini_file__its_lines_in_its_place),
         cmocka_unit_test(take__ini_file_of_itself__refused),
