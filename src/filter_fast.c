@@ -679,8 +679,8 @@ static void interpolate(struct fast *fast, int x, int y)
     fast->known[pixel_of(fast, x, y)] = 1;
 }
 
-/* All pixels of some rows whose block's are 2^k apart or more get results `2^k / 2` apart: those between others of a row
- * (pass 0), or between rows (1). */
+/* All pixels of some rows whose block's are 2^k apart or more get results `2^k / 2` apart: those between others of a
+ * row (pass 0), or between rows (1). */
 static void rows_fill(void *context, int first, int end)
 {
     const struct level *level = context;

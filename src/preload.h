@@ -11,8 +11,8 @@
  * RESULT_DATA where that isn't there. */
 MUST_CHECK enum result preload_begin(const struct work_folder *folder, struct error *err);
 
-/* The variable LD_PRELOAD=... for the environment of POV-Ray in a folder of the work folder, with what it holds now. The
- * caller frees it. */
+/* The variable LD_PRELOAD=... for the environment of POV-Ray in a folder of the work folder, with what it holds now.
+ * The caller frees it. */
 MUST_CHECK enum result preload_variable(char **variable, struct error *err);
 
 #endif

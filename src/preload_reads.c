@@ -1,5 +1,5 @@
-/* A part of the shared object that is loaded into POV-Ray by LD_PRELOAD: notes the files that are opened by fopen, the one
- * function by which POV-Ray opens files, and goes on as ever.
+/* A part of the shared object that is loaded into POV-Ray by LD_PRELOAD: notes the files that are opened by fopen, the
+ * one function by which POV-Ray opens files, and goes on as ever.
  *
  * Each entry of ../reads.log (reads.h), if that file is there, is `r` or `w` (for reading or writing), the name as it
  * was given, and NUL.

@@ -1,8 +1,9 @@
-/* A part of the shared object that is loaded into POV-Ray by LD_PRELOAD. POV-Ray's threads look for messages, and at each
- * look take one step towards the picture or from it to the end; between two looks POV-Ray 3.7 waits for up to 50 ms, which
- * is half a second for each picture. Here such a wait ends after 2 ms, as if it had been woken: POSIX allows a condition
- * wait to return so at any time (pthread_cond_timedwait, "spurious wakeups"). Longer waits aren't touched, for POV-Ray
- * takes their end for what it waits for.
+/* A part of the shared object that is loaded into POV-Ray by LD_PRELOAD: shortens its waits for messages.
+ *
+ * POV-Ray's threads look for messages, and at each look take one step towards the picture or from it to the end; between
+ * two looks POV-Ray 3.7 waits for up to 50 ms, which is half a second for each picture. Here such a wait ends after
+ * 2 ms, as if it had been woken: POSIX allows a condition wait to return so at any time (pthread_cond_timedwait,
+ * "spurious wakeups"). Longer waits aren't touched, for POV-Ray takes their end for what it waits for.
  */
 #include <dlfcn.h>
 #include <errno.h>
