@@ -83,8 +83,7 @@ MUST_CHECK enum result passes_view(struct passes *passes, int frame, const struc
 MUST_CHECK enum result passes_reads(const struct passes *passes, struct buffer *files, struct error *err);
 
 /* Waits for the ends of POV-Ray's processes, some tenths of a second after their images: the next frame does so, and
- * passes_close, but
- * a frame is right only if none failed. NULL is allowed, here and below. */
+ * passes_close, but a frame is right only if none failed. NULL is allowed, here and below. */
 MUST_CHECK enum result passes_settle(struct passes *passes, struct error *err);
 
 /* Leaves no folder but `keep`, and no process; RESULT_DATA where the temporary folder can't be removed. */

@@ -55,6 +55,22 @@ warns_of_version() {
         { show_run; return 1; }
 }
 check "images of the right kind: the fake is good enough" works <<< 'good'
+preloaded() {
+    works << 'SH' && [ -s "$scratch/preloads" ] && ! grep -vE '^\.\./preload\.so(:|$)' "$scratch/preloads"
+echo "$LD_PRELOAD" >> "$here/preloads"
+[ -e ../preload.so ] && good
+SH
+}
+check "every pass has the object that shortens waits" preloaded
+# The programs alone, as somebody may copy them.
+programs_alone() {
+    mkdir -p alone/bin && cp "$bin/povgloss" alone/bin && rm -f preloads || return 1
+    bin=$PWD/alone/bin works << 'SH' && ! grep -q preload.so preloads
+echo "$LD_PRELOAD" >> "$here/preloads"
+good
+SH
+}
+check "without that object it works, too" programs_alone
 check "exit status 1 with a message" fails 4 "Parse Error: Hello" << 'SH'
 echo "File 'pass.inc' line 3: Parse Error: Hello" >&2
 exit 1
