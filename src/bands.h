@@ -1,4 +1,4 @@
-/* Rows of an image shared out among threads. */
+/* Rows of an image, or other pieces of work that are numbered, shared out among threads. */
 #ifndef POVGLOSS_BANDS_H
 #define POVGLOSS_BANDS_H
 

@@ -22,6 +22,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -99,12 +100,15 @@ struct fast {
     int across[BLOCK_LEVELS], down[BLOCK_LEVELS]; /* blocks */
     /* Of one call: */
     struct settings settings;
+    pthread_mutex_t lock;
+    struct worker *idle; /* those of threads that have just done their blocks */
     unsigned char *known, *apart; /* of each pixel: its result is there; log2 of how far apart its block's pixels are */
 };
 
-/* What one thread works with. */
+/* What one thread works with, and leaves to the next one. */
 struct worker {
     struct fast *fast;
+    struct worker *next;
     struct sight sights[SIGHTS];
     int sight_count; /* that may be kept */
     long clock;
@@ -630,25 +634,61 @@ static void block_do(struct worker *worker, int x, int y, int k)
             block_do(worker, u, v, k - 1);
 }
 
-static void rows_do(void *context, int first, int end)
+/* NULL: no memory. */
+static struct worker *worker_make(struct fast *fast)
 {
-    struct fast *fast = context;
     const int width = fast->filter->taps.width;
     const int kept = (int)(sights_bytes / (2 * (double)width * (double)fast->filter->taps.height));
-    struct worker worker = {.fast = fast};
-    worker.sight_count = kept > SIGHTS ? SIGHTS : kept < SIGHTS_OF_GROUP ? SIGHTS_OF_GROUP : kept;
-    worker.exact = aligned_alloc(64, FILTER_SEE_SCRATCH(width));
-    worker.out_of_memory = !sight_scratch_make(&fast->visibility, &worker.scratch) || !worker.exact;
-    for (int row = first; row < end; row++)
-        for (int x = 0; x < width; x += LARGEST)
-            block_do(&worker, x, row * LARGEST, BLOCK_LEVELS - 1);
+    struct worker *worker = calloc(1, sizeof *worker);
+    if (!worker)
+        return NULL;
+    worker->fast = fast;
+    worker->sight_count = kept > SIGHTS ? SIGHTS : kept < SIGHTS_OF_GROUP ? SIGHTS_OF_GROUP : kept;
+    worker->exact = aligned_alloc(64, FILTER_SEE_SCRATCH(width));
+    worker->out_of_memory = !sight_scratch_make(&fast->visibility, &worker->scratch) || !worker->exact;
+    return worker;
+}
+
+static void worker_free(struct worker *worker)
+{
     for (int i = 0; i < SIGHTS; i++)
-        sight_free(&worker.sights[i]);
-    filter_nodes_free(&worker.nodes);
-    free(worker.exact);
-    sight_scratch_free(&worker.scratch);
-    if (worker.out_of_memory)
+        sight_free(&worker->sights[i]);
+    filter_nodes_free(&worker->nodes);
+    free(worker->exact);
+    sight_scratch_free(&worker->scratch);
+    free(worker);
+}
+
+static struct worker *worker_take(struct fast *fast)
+{
+    pthread_mutex_lock(&fast->lock);
+    struct worker *worker = fast->idle;
+    fast->idle = worker ? worker->next : NULL;
+    pthread_mutex_unlock(&fast->lock);
+    return worker ? worker : worker_make(fast);
+}
+
+static void worker_leave(struct worker *worker)
+{
+    struct fast *fast = worker->fast;
+    pthread_mutex_lock(&fast->lock);
+    worker->next = fast->idle;
+    fast->idle = worker;
+    pthread_mutex_unlock(&fast->lock);
+}
+
+/* Blocks of the largest size, row by row. */
+static void blocks_do(void *context, int first, int end)
+{
+    struct fast *fast = context;
+    const int across = fast->across[BLOCK_LEVELS - 1];
+    struct worker *worker = worker_take(fast);
+    for (int i = first; worker && i < end; i++)
+        block_do(worker, i % across * LARGEST, i / across * LARGEST, BLOCK_LEVELS - 1);
+    if (!worker || worker->out_of_memory)
         atomic_store(&fast->filter->out_of_memory, true);
+    if (worker)
+        worker_leave(worker);
 }
 
 /* --- between the computed pixels --- */
@@ -715,6 +755,7 @@ void filter_fast_free(struct fast *fast)
         free(fast->rates[k]);
     filter_cells_free(&fast->cells);
     filter_visibility_free(&fast->visibility);
+    pthread_mutex_destroy(&fast->lock);
     free(fast);
 }
 
@@ -727,6 +768,7 @@ static enum result fast_build(struct filter *filter, struct error *err)
     if (!fast)
         return error_memory(err, sizeof *fast);
     fast->filter = filter;
+    pthread_mutex_init(&fast->lock, NULL);
     enum result result = filter_cells_build(filter, &fast->cells, err);
     if (result == RESULT_OK)
         result = filter_visibility_build(filter, &fast->visibility, err);
@@ -752,7 +794,13 @@ enum result filter_fast(struct filter *filter, struct error *err)
     if (!fast->known || !fast->apart)
         result = error_memory(err, 2 * (double)pixels);
     if (result == RESULT_OK)
-        result = bands_run(fast->down[BLOCK_LEVELS - 1], 1, filter->options->threads, rows_do, fast, err);
+        result = bands_run(fast->across[BLOCK_LEVELS - 1] * fast->down[BLOCK_LEVELS - 1], 1, filter->options->threads,
+                           blocks_do, fast, err);
+    while (fast->idle) {
+        struct worker *worker = fast->idle;
+        fast->idle = worker->next;
+        worker_free(worker);
+    }
     if (result == RESULT_OK && atomic_load(&filter->out_of_memory))
         result = error_memory(err, sights_bytes);
     if (result == RESULT_OK)
