@@ -202,7 +202,7 @@ static void rate_add(struct rate *sum, struct rate rate)
 /* A level that is being filled. */
 struct level {
     struct fast *fast;
-    int k, pass; /* of level_fill */
+    int k, pass; /* of rows_fill */
 };
 
 /* Rates of rows of a level's blocks, of pixels or of the blocks of the level below. */
