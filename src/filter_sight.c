@@ -10,6 +10,8 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { LANES = FILTER_LANES, STRIP = SIGHT_MARGIN };
 
@@ -82,6 +84,36 @@ static void own_tile(const struct sight_tile *tile, const struct sight_taps *tap
     }
 }
 
+/* Whether every own share is seen whole in a square of `size` pixels, the first of which is dx, dy off the eye's: at
+ * the corners of its taps' box, between which the taps lie, for what is seen whole is a cone; and at its farthest
+ * pixel, where some aren't taps. */
+static bool is_open(const struct sight_box *box, int dx, int dy, int size, const struct sight_eye *eye)
+{
+    const int right = abs(dx) > abs(dx + size - 1) ? dx : dx + size - 1;
+    const int down = abs(dy) > abs(dy + size - 1) ? dy : dy + size - 1;
+    const float away = eye->step * ((float)right * (float)right + (float)down * (float)down);
+    _Alignas(64) float corners[4][LANES], is_tap[LANES], far[LANES] = {0}, along[LANES];
+    _Alignas(16) uint8_t own[LANES];
+    uint8_t most = 0;
+    if (box->gaps && (eye->blind - away) * eye->fade < 1)
+        return false;
+    if (box->low[0] > box->high[0])
+        return true;
+    const float low[4] = {box->low[0], box->low[1], box->low[2], box->low[3]};
+    const float high[4] = {box->high[0], box->high[1], box->high[2], box->high[3]};
+    for (int l = 0; l < LANES; l++) {
+        corners[0][l] = l & 1 ? high[0] : low[0];
+        corners[1][l] = l & 2 ? high[1] : low[1];
+        corners[2][l] = l & 4 ? high[2] : low[2];
+        corners[3][l] = l & 8 ? high[3] : low[3];
+        is_tap[l] = 1;
+    }
+    own_lanes(corners[0], corners[1], corners[2], corners[3], is_tap, far, eye, along, own);
+    for (int l = 0; l < LANES; l++)
+        most = own[l] > most ? own[l] : most;
+    return most == 0;
+}
+
 /* What is hidden beyond a tap, in a march: of BLIND. What hides as good as all hides all. */
 enum { STATE = 257, BLIND = STATE * SIGHT_HIDDEN, AS_GOOD_AS_BLIND = BLIND - STATE };
 
@@ -138,15 +170,49 @@ static bool is_dark(const uint16_t *before)
     return least == BLIND;
 }
 
+/* Whether all is seen on the way into the tile whose first column is at `before`. */
+static bool is_bright(const uint16_t *before)
+{
+    uint16_t most = 0;
+    for (int i = 0; i < SIGHT_TILE; i++)
+        most = before[i] > most ? before[i] : most;
+    return most == 0;
+}
+
+/* What is known of a large square. */
+enum { UNKNOWN, CLOSED, OPEN };
+
+/* is_open() of tile `tile` of a band, for the eye at column x, row y; large: what is known of the large squares that
+ * the band crosses. */
+static bool is_open_tile(const struct sight_field *field, int x, int y, int band, int tile, const struct sight_eye *eye,
+                         uint8_t *large)
+{
+    enum { SIZE = SIGHT_LARGE * SIGHT_TILE };
+    const int large_band = band / SIGHT_LARGE, large_tile = tile / SIGHT_LARGE;
+    if (large[large_tile] == UNKNOWN) {
+        const ptrdiff_t index = large_band * field->large_row + large_tile * field->large_column;
+        const int across = large_tile * SIZE - x, down = large_band * SIZE - y;
+        const bool open = is_open(&field->large_boxes[index], field->turned ? down : across,
+                                  field->turned ? across : down, SIZE, eye);
+        large[large_tile] = open ? OPEN : CLOSED;
+    }
+    const int across = tile * SIGHT_TILE - x, down = band * SIGHT_TILE - y;
+    return large[large_tile] == OPEN ||
+           is_open(&field->boxes[band * field->row + tile * field->column], field->turned ? down : across,
+                   field->turned ? across : down, SIGHT_TILE, eye);
+}
+
 static void march(const struct sight_field *field, int x, int y, int step, int limit, const struct sight_eye *eye,
                   uint8_t *scratch, uint8_t *map, struct sight_extent *extent)
 {
     /* By columns. All is hidden in `before` and `state` beyond the tiles of a band, as far as a strip reaches. */
-    const size_t pitch = (size_t)field->width + 3 * SIGHT_MARGIN;
+    const size_t pitch = (size_t)field->width + 4 * SIGHT_MARGIN;
     uint16_t *before = (uint16_t *)(void *)scratch + SIGHT_MARGIN, *state = before + pitch;
-    uint8_t *own = scratch + 2 * sizeof *before * pitch, *hidden = own + SIGHT_TILE * pitch;
+    uint8_t *own = scratch + 2 * sizeof *before * pitch + SIGHT_MARGIN, *hidden = own + SIGHT_TILE * pitch;
+    uint8_t *large = hidden + SIGHT_TILE * pitch;
     const int rows = step < 0 ? y : field->height - 1 - y, end = rows < limit ? rows : limit;
     int first = x, last = x; /* columns that are seen of the row before */
+    int large_band = -1;
     memset(scratch, 0xff, 2 * sizeof *before * pitch);
     before[x] = 0;
     for (int k = 1; k <= end && first <= last;) {
@@ -156,14 +222,38 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
         const int from = first < next - k ? 0 : (first - (next - k)) / SIGHT_TILE;
         const int to = (last + next - k < field->width ? last + next - k : field->width - 1) / SIGHT_TILE;
         const int left = from * SIGHT_TILE, right = (to + 1) * SIGHT_TILE;
+        int left_end = x, right_start = x;
         for (int i = 1; i <= SIGHT_MARGIN; i++)
             before[left - i] = state[left - i] = before[right + i - 1] = state[right + i - 1] = BLIND;
+        int clear_from = x / SIGHT_TILE, clear_end = clear_from;
+        if (band / SIGHT_LARGE != large_band) {
+            large_band = band / SIGHT_LARGE;
+            memset(large, UNKNOWN, (size_t)field->width / (SIGHT_LARGE * SIGHT_TILE) + 1);
+        }
+        if (next - k == SIGHT_TILE) {
+            while (clear_end <= to && is_bright(before + clear_end * SIGHT_TILE) &&
+                   is_open_tile(field, x, y, band, clear_end, eye, large))
+                clear_end++;
+            while (clear_end > clear_from && clear_from > from && is_bright(before + (clear_from - 1) * SIGHT_TILE) &&
+                   is_open_tile(field, x, y, band, clear_from - 1, eye, large))
+                clear_from--;
+        }
+        /* What is seen whole all the way from the eye's tile on hides nothing, and nothing hides it. */
+        if (clear_from < clear_end) {
+            left_end = clear_from * SIGHT_TILE;
+            right_start = clear_end * SIGHT_TILE;
+            memset(state + left_end, 0, sizeof *state * (size_t)(right_start - left_end));
+        }
         for (int tile = from; tile <= to; tile++) {
             const ptrdiff_t index = band * field->row + tile * field->column;
             const int across = tile * SIGHT_TILE - x, down = top - y;
+            if (clear_from <= tile && tile < clear_end)
+                continue;
             _Alignas(64) uint8_t shares[SIGHT_TILE_AREA];
             if (is_dark(before + tile * SIGHT_TILE))
                 memset(shares, SIGHT_HIDDEN, sizeof shares);
+            else if (is_open_tile(field, x, y, band, tile, eye, large))
+                memset(shares, 0, sizeof shares);
             else
                 own_tile(&field->tiles[index], &field->taps[index], field->turned ? down : across,
                          field->turned ? across : down, eye, shares);
@@ -177,9 +267,9 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
         for (; k < next; k++) {
             const size_t at = (size_t)(y + step * k - top) * pitch;
             const float slope = (float)(65535.0 / k);
-            for (int i = left; i < x; i += STRIP)
+            for (int i = left_end - STRIP; i > left - STRIP; i -= STRIP)
                 march_strip(before + i, before + i + 1, own + at + i, x - i, -1, slope, state + i, hidden + at + i);
-            for (int i = x; i < right; i += STRIP)
+            for (int i = right_start; i < right; i += STRIP)
                 march_strip(before + i, before + i - 1, own + at + i, i - x, 1, slope, state + i, hidden + at + i);
             uint16_t *swap = before;
             before = state;
@@ -191,6 +281,10 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
             _Alignas(64) uint8_t found[SIGHT_TILE_AREA];
             if (field->tiles[index].empty)
                 continue;
+            if (clear_from <= tile && tile < clear_end) {
+                memset(shares, 0, SIGHT_TILE_AREA);
+                continue;
+            }
             copy_rows(found, SIGHT_TILE, hidden + tile * SIGHT_TILE, pitch);
             if (field->turned)
                 transpose(found);

@@ -15,12 +15,13 @@ enum {
     SIGHT_TILE_LEVEL = 4,
     SIGHT_TILE = 1 << SIGHT_TILE_LEVEL, /* pixels across a tile; a cell of it is 4 across */
     SIGHT_TILE_AREA = SIGHT_TILE * SIGHT_TILE,
+    SIGHT_LARGE = 4,                    /* tiles across a large square */
     SIGHT_PACKED = 512,                 /* bytes of a tile's levels */
     SIGHT_MARGIN = 64
 };
 
 /* Bytes of scratch of sight_march for pictures of `longest` pixels on their longer side. */
-#define SIGHT_SCRATCH(longest) ((2 * sizeof(uint16_t) + 2 * SIGHT_TILE) * ((size_t)(longest) + 3 * SIGHT_MARGIN))
+#define SIGHT_SCRATCH(longest) ((2 * sizeof(uint16_t) + 2 * SIGHT_TILE + 1) * ((size_t)(longest) + 4 * SIGHT_MARGIN))
 
 /* 16 x 16 taps: x, y, z, w and area as in struct filter_taps, 0 beyond the picture. */
 struct sight_taps {
@@ -35,12 +36,20 @@ struct sight_tile {
     bool empty;   /* none is a tap */
 };
 
+/* Bounds of the taps of a square in x, y, z and w; low above high where there are none. */
+struct sight_box {
+    float low[4], high[4];
+    bool gaps; /* some of its pixels aren't taps */
+};
+
 /* The picture by rows, or by columns (`turned`: all that is of columns and rows is exchanged). */
 struct sight_field {
     const struct sight_tile *tiles;
     const struct sight_taps *taps;
-    int width, height;     /* pixels */
-    ptrdiff_t column, row; /* from a tile to the next one */
+    const struct sight_box *boxes, *large_boxes; /* of the tiles, and of squares of SIGHT_LARGE x SIGHT_LARGE of them */
+    int width, height;                           /* pixels */
+    ptrdiff_t column, row;                       /* from a tile to the next one */
+    ptrdiff_t large_column, large_row;           /* from a large square to the next one */
     bool turned;
 };
 

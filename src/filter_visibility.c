@@ -37,22 +37,43 @@ static float row_off(const struct sight_tile *tile, const struct sight_taps *tap
     return (float)sqrt(most);
 }
 
-static void tile_fill(const struct filter *filter, int left, int top, struct sight_tile *tile, struct sight_taps *taps)
+static struct sight_box box_empty(void)
+{
+    struct sight_box box = {.gaps = false};
+    for (int i = 0; i < 4; i++) {
+        box.low[i] = INFINITY;
+        box.high[i] = -INFINITY;
+    }
+    return box;
+}
+
+static void tile_fill(const struct filter *filter, int left, int top, struct sight_tile *tile, struct sight_taps *taps,
+                      struct sight_box *box)
 {
     static const enum filter_plane from[] = {FILTER_PLANE_X, FILTER_PLANE_Y, FILTER_PLANE_Z, FILTER_PLANE_W,
                                              FILTER_PLANE_AREA};
     int counts[4] = {0};
     *tile = (struct sight_tile){0};
     *taps = (struct sight_taps){0};
+    *box = box_empty();
     for (int t = 0; t < SIGHT_TILE_AREA; t++) {
         const int x = left + t % SIGHT_TILE, y = top + t / SIGHT_TILE;
-        if (!filter_is_inside(filter, x, y))
+        if (!filter_is_inside(filter, x, y)) {
+            box->gaps = true;
             continue;
+        }
         for (int i = 0; i < 5; i++)
             taps->planes[i][t] = *filter_tap_at(filter, from[i], x, y);
         for (int i = 0; i < 5; i++)
             tile->cells[i][t / CELL_ROW * 4 + t % SIGHT_TILE / 4] += taps->planes[i][t] / 16;
-        counts[t / CELL_ROW] += taps->planes[4][t] > 0;
+        box->gaps = box->gaps || !(taps->planes[4][t] > 0);
+        if (!(taps->planes[4][t] > 0))
+            continue;
+        counts[t / CELL_ROW]++;
+        for (int i = 0; i < 4; i++) {
+            box->low[i] = fminf(box->low[i], taps->planes[i][t]);
+            box->high[i] = fmaxf(box->high[i], taps->planes[i][t]);
+        }
     }
     tile->empty = true;
     for (int row = 0; row < 4; row++) {
@@ -67,7 +88,27 @@ static void tiles_fill(void *context, int first, int end)
     const int across = visibility->across;
     for (int i = first * across; i < end * across; i++)
         tile_fill(visibility->filter, i % across * SIGHT_TILE, i / across * SIGHT_TILE, &visibility->tiles[i],
-                  &visibility->taps[i]);
+                  &visibility->taps[i], &visibility->boxes[i]);
+}
+
+/* The large squares' boxes, each from its tiles'. */
+static void large_boxes_fill(struct filter_visibility *visibility)
+{
+    const int across = visibility->across, down = visibility->down, large_across = (int)visibility->rows.large_row;
+    for (int i = 0; i < large_across * ((down + SIGHT_LARGE - 1) / SIGHT_LARGE); i++) {
+        const int left = i % large_across * SIGHT_LARGE, top = i / large_across * SIGHT_LARGE;
+        struct sight_box large = box_empty();
+        for (int y = top; y < top + SIGHT_LARGE && y < down; y++)
+            for (int x = left; x < left + SIGHT_LARGE && x < across; x++) {
+                const struct sight_box *box = &visibility->boxes[y * across + x];
+                large.gaps = large.gaps || box->gaps;
+                for (int k = 0; k < 4; k++) {
+                    large.low[k] = fminf(large.low[k], box->low[k]);
+                    large.high[k] = fmaxf(large.high[k], box->high[k]);
+                }
+            }
+        visibility->large_boxes[i] = large;
+    }
 }
 
 enum result filter_visibility_build(const struct filter *filter, struct filter_visibility *visibility,
@@ -78,22 +119,51 @@ enum result filter_visibility_build(const struct filter *filter, struct filter_v
     const size_t count = (size_t)across * (size_t)down;
     struct sight_tile *tiles = malloc(count * sizeof *tiles);
     struct sight_taps *taps = malloc(count * sizeof *taps);
+    struct sight_box *boxes = malloc(count * sizeof *boxes);
+    const int large_across = (across + SIGHT_LARGE - 1) / SIGHT_LARGE;
+    const int large_down = (down + SIGHT_LARGE - 1) / SIGHT_LARGE;
+    struct sight_box *large_boxes = malloc((size_t)large_across * (size_t)large_down * sizeof *large_boxes);
+    const struct sight_field rows = {.tiles = tiles,
+                                     .taps = taps,
+                                     .boxes = boxes,
+                                     .large_boxes = large_boxes,
+                                     .width = width,
+                                     .height = height,
+                                     .column = 1,
+                                     .row = across,
+                                     .large_column = 1,
+                                     .large_row = large_across};
+    struct sight_field columns = rows;
+    columns.width = height;
+    columns.height = width;
+    columns.column = across;
+    columns.row = 1;
+    columns.large_column = large_across;
+    columns.large_row = 1;
+    columns.turned = true;
     *visibility = (struct filter_visibility){.filter = filter,
                                              .tiles = tiles,
                                              .taps = taps,
+                                             .boxes = boxes,
+                                             .large_boxes = large_boxes,
                                              .across = across,
                                              .down = down,
-                                             .rows = {tiles, taps, width, height, 1, across, false},
-                                             .columns = {tiles, taps, height, width, across, 1, true}};
-    if (!tiles || !taps)
-        return error_memory(err, (double)count * (double)(sizeof *tiles + sizeof *taps));
-    return bands_run(down, 1, filter->options->threads, tiles_fill, visibility, err);
+                                             .rows = rows,
+                                             .columns = columns};
+    if (!tiles || !taps || !boxes || !large_boxes)
+        return error_memory(err, (double)count * (double)(sizeof *tiles + sizeof *taps + sizeof *boxes));
+    enum result result = bands_run(down, 1, filter->options->threads, tiles_fill, visibility, err);
+    if (result == RESULT_OK)
+        large_boxes_fill(visibility);
+    return result;
 }
 
 void filter_visibility_free(struct filter_visibility *visibility)
 {
     free(visibility->tiles);
     free(visibility->taps);
+    free(visibility->boxes);
+    free(visibility->large_boxes);
 }
 
 bool sight_scratch_make(const struct filter_visibility *visibility, struct sight_scratch *scratch)

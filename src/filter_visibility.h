@@ -8,6 +8,7 @@ struct filter_visibility {
     const struct filter *filter;
     struct sight_tile *tiles;
     struct sight_taps *taps;
+    struct sight_box *boxes, *large_boxes;
     int across, down; /* tiles */
     struct sight_field rows, columns;
 };
