@@ -8,6 +8,7 @@
  * - What is seen is found (filter_visibility.h) for the corners of blocks, and interpolated for the pixels between by
  *   the share of each cell that is hidden; where the corners differ by too much, or near things come out uneven, blocks
  *   are halved, down to single pixels. What hides may be narrower than any cell: a sight looks at every pixel.
+ * - The pool, all that is about a pixel, seen or not, is clustered for squares of 16 x 16 pixels.
  *
  * Each row of the largest blocks is done by itself, so that the result doesn't depend on the threads.
  */
@@ -31,6 +32,7 @@ enum {
     SIDE = 4,         /* computed pixels across a block */
     BLOCK_LEVELS = 5, /* of blocks whose pixels are 1, 2, 4, 8 and 16 apart */
     LARGEST = SIDE << (BLOCK_LEVELS - 1),
+    POOL_LEVEL = 2,                  /* blocks below this level share a pool */
     REACH = 3 << (BLOCK_LEVELS - 1), /* pixels: interpolation comes from no farther, 3 (8 + 4 + 2 + 1) */
     SIGHTS = 100,                    /* that are kept, while their memory allows: */
     /* Of a picture, and of the radius: the exact sums of smaller ones are as fast. */
@@ -105,6 +107,12 @@ struct fast {
     unsigned char *known, *apart; /* of each pixel: its result is there; log2 of how far apart its block's pixels are */
 };
 
+/* What the pixels of a square all have about them. */
+struct pool {
+    int left, top, size; /* of the square, pixels; 0: there is nothing */
+    struct filter_nodes nodes;
+};
+
 /* What one thread works with, and leaves to the next one. */
 struct worker {
     struct fast *fast;
@@ -115,6 +123,7 @@ struct worker {
     struct sight_scratch scratch;
     float *exact;     /* of filter_best_lanes */
     struct filter_nodes nodes;
+    struct pool pool;
     bool out_of_memory;
 };
 
@@ -367,7 +376,7 @@ static bool sights_choose(struct worker *worker, struct block *block, int size, 
 /* --- blocks --- */
 
 /* A pixel that is to be computed. */
-static bool pixel_add(struct fast *fast, struct block *block, struct pixels *pixels, int l, int x, int y)
+static bool pixel_add(struct fast *fast, struct pixels *pixels, int l, int x, int y)
 {
     struct filter *filter = fast->filter;
     if (!filter_is_inside(filter, x, y) || !filter_is_glossy(filter, x, y))
@@ -382,9 +391,13 @@ static bool pixel_add(struct fast *fast, struct block *block, struct pixels *pix
     pixels->at.ys[l] = y;
     pixels->group.column[l] = (float)x;
     pixels->group.row[l] = (float)y;
-    if (!(filter->options->without & FILTER_WITHOUT_POOL))
-        block->walk.reach_px = (int)fmax(block->walk.reach_px, ceil((double)image_row(&filter->radius, 0, y)[x]));
     return true;
+}
+
+/* What the directions of a cell may spread, radians, to lobes of up to an exponent. */
+static float spread_for(const struct fast *fast, double phong)
+{
+    return fast->settings.spread / (float)sqrt(fmax(phong, 1));
 }
 
 /* The block's lattice, `apart` pixels from each other. False: there is nothing to sum. */
@@ -406,7 +419,7 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
     block->lattice.group.limit = block->between.group.limit = (float)block->walk.limit_px * (float)block->walk.limit_px;
     for (int l = 0; l < LANES; l++) {
         const int u = x + l % SIDE * apart, v = y + l / SIDE * apart;
-        if (!pixel_add(fast, block, &block->lattice, l, u, v))
+        if (!pixel_add(fast, &block->lattice, l, u, v))
             continue;
         if (!any || l == LANES / 2)
             block->walk.middle = l;
@@ -414,7 +427,7 @@ static bool block_fill(struct fast *fast, int x, int y, int apart, struct block 
         phong_most_used = fmax(phong_most_used, filter_exponent_at(filter, u, v));
     }
     block->walk.lobe = (float)lobe_integral(phong_most_used, filter->floor);
-    block->walk.spread = fast->settings.spread / (float)sqrt(fmax(phong_most_used, 1));
+    block->walk.spread = spread_for(fast, phong_most_used);
     return any;
 }
 
@@ -443,7 +456,7 @@ static bool between_fill(struct fast *fast, int apart, struct block *block)
                 continue;
             if (block->between_count == LANES)
                 return false;
-            block->between_count += pixel_add(fast, block, &block->between, block->between_count, x, y);
+            block->between_count += pixel_add(fast, &block->between, block->between_count, x, y);
         }
     block->walk.right = block->walk.left + size - 1;
     block->walk.bottom = block->walk.top + size - 1;
@@ -467,7 +480,7 @@ static void pixels_see(struct worker *worker, struct pixels *pixels, struct filt
 {
     const struct filter_nodes *nodes = &worker->nodes;
     if (!worker->out_of_memory)
-        worker->fast->filter->sight->see(nodes->nodes, nodes->hidden, nodes->seen, &pixels->group, seen);
+        worker->fast->filter->sight->see(nodes->nodes, nodes->hidden, nodes->count, &pixels->group, seen);
 }
 
 /* What the pixels of the lattice see, from the block's corners or by their own sight, and of which nodes. False: to a
@@ -486,21 +499,87 @@ static bool block_see(struct worker *worker, struct block *block, int k, const b
     return true;
 }
 
-static void pixels_write(struct worker *worker, const struct filter_walk *walk, struct pixels *pixels,
-                         const struct filter_moments *seen)
+/* Whether pixel (x, y) may need the pool. */
+static bool pool_serves(const struct filter *filter, int x, int y)
+{
+    return filter_is_inside(filter, x, y) && filter_is_glossy(filter, x, y) &&
+           image_row(&filter->radius, 0, y)[x] >= 1;
+}
+
+/* What a walk for a square's pixels has to know of them: the one next to its middle, how far the others' directions
+ * are from that one's, and how far away they look. */
+static void square_look(const struct filter *filter, struct filter_walk *walk, struct filter_lanes *lanes)
+{
+    const int size = walk->right + 1 - walk->left, area = size * size;
+    int middle = -1, least = area;
+    for (int i = 0; i < area; i++) {
+        const int right = i % size - size / 2, down = i / size - size / 2;
+        if (right * right + down * down < least && pool_serves(filter, walk->left + i % size, walk->top + i / size)) {
+            least = right * right + down * down;
+            middle = i;
+        }
+    }
+    if (middle < 0 ||
+        !filter_lane_fill(filter, walk->left + middle % size, walk->top + middle / size, walk->middle, lanes))
+        return;
+    for (int i = 0; i < area; i++) {
+        const int x = walk->left + i % size, y = walk->top + i / size;
+        float a[3], square = 0;
+        double direction[3];
+        if (!pool_serves(filter, x, y))
+            continue;
+        filter_position_at(filter, x, y, a);
+        filter_direction_to(filter, a, x, y, direction);
+        for (int k = 0; k < 3; k++) {
+            const float off = (float)direction[k] - lanes->direction[k][walk->middle];
+            square += off * off;
+        }
+        walk->turn = fmaxf(walk->turn, sqrtf(square));
+        walk->reach_px = (int)fmax(walk->reach_px, ceil((double)image_row(&filter->radius, 0, y)[x]));
+    }
+}
+
+/* What pixels of a block of level k have about them: of a square of POOL_LEVEL or more, whose blocks share it. */
+static const struct filter_nodes *pool_of(struct worker *worker, const struct pixels *pixels, int k)
+{
+    const struct fast *fast = worker->fast;
+    const int level = k > POOL_LEVEL ? k : POOL_LEVEL, size = SIDE << level;
+    const int left = pixels->group.lanes.x / size * size, top = pixels->group.lanes.y / size * size;
+    struct pool *pool = &worker->pool;
+    if (pool->size == size && pool->left == left && pool->top == top)
+        return &pool->nodes;
+    const struct rate rate = rate_of_block(fast, left / size, top / size, level);
+    struct filter_lanes lanes = filter_lanes_empty(left, top);
+    struct filter_walk walk = {.left = left,
+                               .top = top,
+                               .right = left + size - 1,
+                               .bottom = top + size - 1,
+                               .finest = size / LANES,
+                               .lanes = &lanes,
+                               .size = fast->settings.size,
+                               .spread = spread_for(fast, (double)rate.phong_high)};
+    square_look(fast->filter, &walk, &lanes);
+    filter_walk_pool(fast->filter, &fast->cells, &walk, &pool->nodes);
+    worker->out_of_memory = worker->out_of_memory || pool->nodes.out_of_memory;
+    pool->left = left;
+    pool->top = top;
+    pool->size = size;
+    return &pool->nodes;
+}
+
+/* Writes what pixels of a block of level k see. */
+static void pixels_write(struct worker *worker, int k, struct pixels *pixels, const struct filter_moments *seen)
 {
     struct fast *fast = worker->fast;
     struct filter *filter = fast->filter;
-    struct filter_nodes *nodes = &worker->nodes;
-    struct filter_sums pool = {0};
+    struct filter_sums sums = {0};
     struct filter_help help[LANES] = {{0}};
     if (filter_help_needed(filter, &pixels->at, seen, &pixels->group.lanes, help)) {
-        filter_walk_rest(filter, &fast->cells, walk, nodes);
-        worker->out_of_memory = nodes->out_of_memory;
+        const struct filter_nodes *pool = pool_of(worker, pixels, k);
         if (!worker->out_of_memory)
-            filter->sight->pool(nodes->nodes, nodes->count, &pixels->group, &pool);
+            filter->sight->pool(pool->nodes, pool->count, &pixels->group, &sums);
     }
-    filter_write_best(filter, &pixels->at, seen, &pool, help);
+    filter_write_best(filter, &pixels->at, seen, &sums, help);
     for (int l = 0; l < LANES; l++)
         if (pixels->at.used[l])
             fast->known[pixel_of(fast, pixels->at.xs[l], pixels->at.ys[l])] = 1;
@@ -558,7 +637,7 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
     if (any_own)
         block_see(worker, &block, k, own, &seen);
     if (!worker->out_of_memory)
-        pixels_write(worker, &block.walk, lattice, &seen);
+        pixels_write(worker, k, lattice, &seen);
     if (k > 0 && !steady && !is_even(fast, lattice))
         return false;
     if (block.between_count > 0)
@@ -567,7 +646,7 @@ static bool block_compute(struct worker *worker, const struct rate *rate, int x,
         if (is_more(between, &seen_between, between->group.unlike, l, settings->unlike))
             return false;
     if (block.between_count > 0 && !worker->out_of_memory)
-        pixels_write(worker, &block.walk, between, &seen_between);
+        pixels_write(worker, k, between, &seen_between);
     return true;
 }
 
@@ -654,6 +733,7 @@ static void worker_free(struct worker *worker)
     for (int i = 0; i < SIGHTS; i++)
         sight_free(&worker->sights[i]);
     filter_nodes_free(&worker->nodes);
+    filter_nodes_free(&worker->pool.nodes);
     free(worker->exact);
     sight_scratch_free(&worker->scratch);
     free(worker);

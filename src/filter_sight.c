@@ -191,15 +191,12 @@ static bool is_open_tile(const struct sight_field *field, int x, int y, int band
     const int large_band = band / SIGHT_LARGE, large_tile = tile / SIGHT_LARGE;
     if (large[large_tile] == UNKNOWN) {
         const ptrdiff_t index = large_band * field->large_row + large_tile * field->large_column;
-        const int across = large_tile * SIZE - x, down = large_band * SIZE - y;
-        const bool open = is_open(&field->large_boxes[index], field->turned ? down : across,
-                                  field->turned ? across : down, SIZE, eye);
+        const bool open =
+            is_open(&field->large_boxes[index], large_tile * SIZE - x, large_band * SIZE - y, SIZE, eye);
         large[large_tile] = open ? OPEN : CLOSED;
     }
-    const int across = tile * SIGHT_TILE - x, down = band * SIGHT_TILE - y;
-    return large[large_tile] == OPEN ||
-           is_open(&field->boxes[band * field->row + tile * field->column], field->turned ? down : across,
-                   field->turned ? across : down, SIGHT_TILE, eye);
+    return large[large_tile] == OPEN || is_open(&field->boxes[band * field->row + tile * field->column],
+                                                tile * SIGHT_TILE - x, band * SIGHT_TILE - y, SIGHT_TILE, eye);
 }
 
 static void march(const struct sight_field *field, int x, int y, int step, int limit, const struct sight_eye *eye,
@@ -475,14 +472,37 @@ ALWAYS_INLINE void pool_node(const struct filter_node *node, const struct filter
     }
 }
 
+/* The rectangle that holds the windows of all lanes, pixels. */
+struct window {
+    float left, top, right, bottom;
+};
+
+static struct window window_of(const struct filter_group *group)
+{
+    struct window window = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (int l = 0; l < LANES; l++) {
+        const float reach = sqrtf(group->lanes.limit[l]);
+        if (!(group->lanes.limit[l] >= 0))
+            continue;
+        window.left = fminf(window.left, group->column[l] - reach);
+        window.right = fmaxf(window.right, group->column[l] + reach);
+        window.top = fminf(window.top, group->row[l] - reach);
+        window.bottom = fmaxf(window.bottom, group->row[l] + reach);
+    }
+    return window;
+}
+
 static void pool(const struct filter_node *nodes, int count, const struct filter_group *group,
                  struct filter_sums *sums)
 {
+    const struct window window = window_of(group);
     memset(sums, 0, sizeof *sums);
     for (int first = 0; first < count; first += CHUNK) {
         _Alignas(64) float partial[4][LANES] = {{0}};
         for (int i = first; i < first + CHUNK && i < count; i++)
-            pool_node(&nodes[i], group, partial);
+            if (nodes[i].column >= window.left && nodes[i].column <= window.right && nodes[i].row >= window.top &&
+                nodes[i].row <= window.bottom)
+                pool_node(&nodes[i], group, partial);
         for (int i = 0; i < 4; i++)
             for (int l = 0; l < LANES; l++)
                 sums->value[i][l] += (double)partial[i][l];

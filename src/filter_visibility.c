@@ -47,6 +47,16 @@ static struct sight_box box_empty(void)
     return box;
 }
 
+/* Adds what lies between `low` and `high`, and whether some of it isn't taps. */
+static void box_add(struct sight_box *box, const float low[4], const float high[4], bool gaps)
+{
+    box->gaps = box->gaps || gaps;
+    for (int i = 0; i < 4; i++) {
+        box->low[i] = fminf(box->low[i], low[i]);
+        box->high[i] = fmaxf(box->high[i], high[i]);
+    }
+}
+
 static void tile_fill(const struct filter *filter, int left, int top, struct sight_tile *tile, struct sight_taps *taps,
                       struct sight_box *box)
 {
@@ -66,14 +76,13 @@ static void tile_fill(const struct filter *filter, int left, int top, struct sig
             taps->planes[i][t] = *filter_tap_at(filter, from[i], x, y);
         for (int i = 0; i < 5; i++)
             tile->cells[i][t / CELL_ROW * 4 + t % SIGHT_TILE / 4] += taps->planes[i][t] / 16;
-        box->gaps = box->gaps || !(taps->planes[4][t] > 0);
-        if (!(taps->planes[4][t] > 0))
+        if (!(taps->planes[4][t] > 0)) {
+            box->gaps = true;
             continue;
-        counts[t / CELL_ROW]++;
-        for (int i = 0; i < 4; i++) {
-            box->low[i] = fminf(box->low[i], taps->planes[i][t]);
-            box->high[i] = fmaxf(box->high[i], taps->planes[i][t]);
         }
+        const float at[4] = {taps->planes[0][t], taps->planes[1][t], taps->planes[2][t], taps->planes[3][t]};
+        box_add(box, at, at, false);
+        counts[t / CELL_ROW]++;
     }
     tile->empty = true;
     for (int row = 0; row < 4; row++) {
@@ -101,11 +110,7 @@ static void large_boxes_fill(struct filter_visibility *visibility)
         for (int y = top; y < top + SIGHT_LARGE && y < down; y++)
             for (int x = left; x < left + SIGHT_LARGE && x < across; x++) {
                 const struct sight_box *box = &visibility->boxes[y * across + x];
-                large.gaps = large.gaps || box->gaps;
-                for (int k = 0; k < 4; k++) {
-                    large.low[k] = fminf(large.low[k], box->low[k]);
-                    large.high[k] = fmaxf(large.high[k], box->high[k]);
-                }
+                box_add(&large, box->low, box->high, box->gaps);
             }
         visibility->large_boxes[i] = large;
     }

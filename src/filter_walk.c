@@ -9,9 +9,6 @@
 /* A cell's hidden share may always be off by so much. */
 static const float range_least = 0.05f;
 
-/* How many times larger a cell that no sight sees may be. */
-static const float unseen_size = 3;
-
 /* A cell that isn't larger than this share of how far is seen is in or out as its middle is. */
 static const double limit_share = 1 / 16.;
 
@@ -61,8 +58,10 @@ static struct look look_at(struct walker *walker, int k, int x, int y, const str
 
 /* A layer of a cell from the middle lane. */
 struct view {
+    bool in_lobe; /* or about */
     float spread; /* standard deviation of its directions, radians */
-    float weight; /* in the lobe, about, or somewhat more; 0: it is out of it */
+    float t;      /* tan^2(theta) of what of it is nearest to the direction */
+    float square; /* of the distance of what of it is nearest */
 };
 
 static struct view view_of(const struct filter_walk *walk, const struct filter_cell *cell, int i)
@@ -83,28 +82,42 @@ static struct view view_of(const struct filter_walk *walk, const struct filter_c
     const float nearest = distance > off ? distance - off : 0, aside_square = square - c * c;
     const float beside = off + walk->turn * distance;
     const float aside = aside_square > beside * beside ? sqrtf(aside_square) - beside : 0;
-    struct view view = {.spread = spread / (distance + FLT_MIN)};
     const float t = aside / (c + off) * aside / (c + off);
-    if (c + off > 0 && t <= lanes->reach[l] * margin)
-        view.weight = exp2f(-lanes->slope[l] * log2f(1 + t)) * layer->solid /
-                      fmaxf(nearest * nearest, (float)(1 / FILTER_MOST_ENLARGED));
-    return view;
+    return (struct view){.in_lobe = c + off > 0 && t <= lanes->reach[l] * margin,
+                         .spread = spread / (distance + FLT_MIN),
+                         .t = t,
+                         .square = nearest * nearest};
 }
 
-static bool is_spread(const struct filter_walk *walk, struct view near, struct view far)
+static bool is_spread(const struct filter_walk *walk, struct view view)
 {
-    return (near.weight > 0 && near.spread > walk->spread) || (far.weight > 0 && far.spread > walk->spread);
+    return view.in_lobe && view.spread > walk->spread;
 }
 
-/* Whether the cell, seen and small enough for its distance, is to be opened: its directions differ too much, or part of
- * it is hidden, and that counts. *weight: as in views. */
-static bool is_mixed(const struct filter_walk *walk, const struct filter_cell *cell, const struct look *look,
-                     float *weight)
+/* A layer's weight in the lobe, about, or somewhat more. */
+static float view_weight(const struct filter_walk *walk, const struct filter_node *layer, struct view view)
+{
+    return view.in_lobe ? exp2f(-walk->lanes->slope[walk->middle] * log2f(1 + view.t)) * layer->solid /
+                              fmaxf(view.square, (float)(1 / FILTER_MOST_ENLARGED))
+                        : 0;
+}
+
+/* How a cell that is small enough for its distance is taken. */
+enum use { USE_NONE, USE_WHOLE, USE_PARTS };
+
+/* None where it is out of the lobe; its parts where its directions differ too much, or part of it is hidden, and that
+ * counts. */
+static enum use use_of(const struct filter_walk *walk, const struct filter_cell *cell, float hidden_range)
 {
     const struct view near = view_of(walk, cell, 0), far = view_of(walk, cell, 1);
-    *weight = near.weight + far.weight;
-    return is_spread(walk, near, far) ||
-           (look->range > range_least && *weight * look->range > walk->hidden * walk->lobe);
+    if (is_spread(walk, near) || is_spread(walk, far))
+        return USE_PARTS;
+    if (hidden_range > range_least) {
+        const float weight = view_weight(walk, &cell->layer[0], near) + view_weight(walk, &cell->layer[1], far);
+        if (weight * hidden_range > walk->hidden * walk->lobe)
+            return USE_PARTS;
+    }
+    return near.in_lobe || far.in_lobe ? USE_WHOLE : USE_NONE;
 }
 
 static bool nodes_reserve(struct filter_nodes *list)
@@ -114,25 +127,20 @@ static bool nodes_reserve(struct filter_nodes *list)
     const int capacity = list->capacity ? 2 * list->capacity : 4096;
     struct filter_node *nodes = realloc(list->nodes, (size_t)capacity * sizeof *nodes);
     list->nodes = nodes ? nodes : list->nodes;
-    float *hidden = realloc(list->hidden, (size_t)capacity * SIGHTS_OF_GROUP * sizeof *hidden);
-    list->hidden = hidden ? hidden : list->hidden;
-    list->capacity = nodes && hidden ? capacity : list->capacity;
-    list->out_of_memory = !nodes || !hidden;
-    return !list->out_of_memory;
+    list->capacity = nodes ? capacity : list->capacity;
+    list->out_of_memory = !nodes;
+    return nodes != NULL;
 }
 
-static void rest_add(struct filter_nodes *list, int k, int x, int y)
+static bool hidden_reserve(struct filter_nodes *list)
 {
-    if (list->rest_count == list->rest_capacity) {
-        const int capacity = list->rest_capacity ? 2 * list->rest_capacity : 1024;
-        struct filter_place *rest = realloc(list->rest, (size_t)capacity * sizeof *rest);
-        list->out_of_memory = !rest;
-        if (!rest)
-            return;
-        list->rest = rest;
-        list->rest_capacity = capacity;
-    }
-    list->rest[list->rest_count++] = (struct filter_place){k, x, y};
+    if (list->capacity == list->hidden_capacity)
+        return true;
+    float *hidden = realloc(list->hidden, (size_t)list->capacity * SIGHTS_OF_GROUP * sizeof *hidden);
+    list->hidden = hidden ? hidden : list->hidden;
+    list->hidden_capacity = hidden ? list->capacity : list->hidden_capacity;
+    list->out_of_memory = !hidden;
+    return hidden != NULL;
 }
 
 /* A node of cell (x, y) of level k; NULL: no memory. */
@@ -152,7 +160,7 @@ static void seen_add(struct walker *walker, const struct filter_node *node, int 
 {
     struct filter_nodes *list = walker->list;
     struct filter_node *added = node_add(list, node, k, x, y);
-    if (!added)
+    if (!added || !hidden_reserve(list))
         return;
     float *hidden = list->hidden + (size_t)(list->count - 1) * SIGHTS_OF_GROUP, low = 1, high = 0;
     hidden[0] = 0;
@@ -189,20 +197,17 @@ static bool is_at_limit(const struct filter_walk *walk, int k, int x, int y)
     return size > limit_share * (double)walk->limit_px && hypot(off_x, off_y) > walk->limit_px;
 }
 
-/* Adds the nodes of a cell of level k, or of its parts; and what isn't seen, or isn't in the lobe, to the rest. */
+/* Adds the nodes of a cell of level k, or of its parts, that are seen and in the lobe. */
 static void cell_walk(struct walker *walker, int k, int x, int y, const struct look *whole)
 {
     const struct filter_walk *walk = walker->walk;
     const struct filter_cells *cells = walker->cells;
     struct filter_nodes *list = walker->list;
-    float weight = 0;
     if (list->out_of_memory)
         return;
     const struct look look = look_at(walker, k, x, y, whole);
-    if (!look.seen && look.open_count == 0) {
-        rest_add(list, k, x, y);
+    if (!look.seen && look.open_count == 0)
         return;
-    }
     if (k == 0) {
         struct filter_node node;
         if (filter_cell_of_pixel(walker->filter, x, y, &node))
@@ -215,15 +220,14 @@ static void cell_walk(struct walker *walker, int k, int x, int y, const struct l
         return;
     const bool large = 1 << k > walk->finest &&
                        ((float)(1 << k) > (float)away * walk->size || is_at_limit(walk, k, x, y));
-    if (large || is_mixed(walk, cell, &look, &weight)) {
+    const enum use use = large ? USE_PARTS : use_of(walk, cell, look.range);
+    if (use == USE_PARTS) {
         for (int v = 2 * y; v < 2 * y + 2 && v < cells->height[k - 1]; v++)
             for (int u = 2 * x; u < 2 * x + 2 && u < cells->width[k - 1]; u++)
                 cell_walk(walker, k - 1, u, v, &look);
         return;
     }
-    if (!(weight > 0))
-        rest_add(list, k, x, y);
-    for (int i = 0; i < 2 && weight > 0; i++)
+    for (int i = 0; i < 2 && use == USE_WHOLE; i++)
         if (cell->layer[i].solid > 0)
             seen_add(walker, &cell->layer[i], k, x, y);
 }
@@ -236,14 +240,14 @@ void filter_walk(const struct filter *filter, const struct filter_cells *cells, 
     struct look whole = {.seen = walk->sight_count == 0, .open_count = walk->sight_count};
     for (int s = 0; s < walk->sight_count; s++)
         whole.open[s] = (unsigned char)s;
-    nodes->count = nodes->rest_count = 0;
+    nodes->count = 0;
     for (int y = 0; y < cells->height[top]; y++)
         for (int x = 0; x < cells->width[top]; x++)
             cell_walk(&walker, top, x, y, &whole);
-    nodes->seen = nodes->count;
 }
 
-static void rest_walk(const struct walker *walker, int k, int x, int y)
+/* Adds the nodes of a cell of level k, or of its parts, to the pool. */
+static void pool_walk(const struct walker *walker, int k, int x, int y)
 {
     const struct filter_walk *walk = walker->walk;
     const struct filter_cells *cells = walker->cells;
@@ -259,11 +263,11 @@ static void rest_walk(const struct walker *walker, int k, int x, int y)
     const struct filter_cell *cell = cell_at(cells, k, x, y);
     if (cell->pixels == 0)
         return;
-    const bool large = 1 << k > walk->finest && (float)(1 << k) > (float)away * walk->size * unseen_size;
-    if (large || is_spread(walk, view_of(walk, cell, 0), view_of(walk, cell, 1))) {
+    const bool large = 1 << k > walk->finest && (float)(1 << k) > (float)away * walk->size;
+    if (large || is_spread(walk, view_of(walk, cell, 0)) || is_spread(walk, view_of(walk, cell, 1))) {
         for (int v = 2 * y; v < 2 * y + 2 && v < cells->height[k - 1]; v++)
             for (int u = 2 * x; u < 2 * x + 2 && u < cells->width[k - 1]; u++)
-                rest_walk(walker, k - 1, u, v);
+                pool_walk(walker, k - 1, u, v);
         return;
     }
     for (int i = 0; i < 2; i++)
@@ -271,18 +275,19 @@ static void rest_walk(const struct walker *walker, int k, int x, int y)
             (void)node_add(walker->list, &cell->layer[i], k, x, y);
 }
 
-void filter_walk_rest(const struct filter *filter, const struct filter_cells *cells, const struct filter_walk *walk,
+void filter_walk_pool(const struct filter *filter, const struct filter_cells *cells, const struct filter_walk *walk,
                       struct filter_nodes *nodes)
 {
+    const int top = CELL_LEVELS - 1;
     const struct walker walker = {.filter = filter, .cells = cells, .walk = walk, .list = nodes};
-    for (int i = 0; i < nodes->rest_count; i++)
-        rest_walk(&walker, nodes->rest[i].level, nodes->rest[i].x, nodes->rest[i].y);
-    nodes->rest_count = 0;
+    nodes->count = 0;
+    for (int y = 0; y < cells->height[top]; y++)
+        for (int x = 0; x < cells->width[top]; x++)
+            pool_walk(&walker, top, x, y);
 }
 
 void filter_nodes_free(struct filter_nodes *nodes)
 {
     free(nodes->nodes);
     free(nodes->hidden);
-    free(nodes->rest);
 }

@@ -5,23 +5,17 @@
 #include "filter_cells.h"
 #include "filter_visibility.h"
 
-struct filter_place {
-    int level, x, y;
-};
-
-/* What is seen, as nodes in a row, with the hidden share of each, 0 to 1, for each sight: SIGHTS_OF_GROUP; and the
- * cells that aren't, from which filter_walk_rest() makes further nodes. All 0: none. */
+/* Nodes in a row, and, of what is seen, the hidden share of each, 0 to 1, for each sight: SIGHTS_OF_GROUP. All 0:
+ * none. */
 struct filter_nodes {
     struct filter_node *nodes;
     float *hidden;
-    int count, capacity, seen; /* nodes; the first `seen` of them are seen */
-    struct filter_place *rest;
-    int rest_count, rest_capacity;
+    int count, capacity, hidden_capacity;
     bool out_of_memory;
 };
 
 /* A cell is used whole where it is small for its distance, its directions differ by little of the lobe, and what part
- * of it is hidden counts for little. What isn't seen serves the pool alone. */
+ * of it is hidden counts for little. */
 struct filter_walk {
     int left, top, right, bottom;     /* of the block, pixels, inclusive */
     int finest;                       /* cells of so many pixels are always used whole */
@@ -38,12 +32,12 @@ struct filter_walk {
     int sight_count;                  /* 0: all is seen */
 };
 
-/* The nodes that are seen, in place of what was there, and the cells that aren't. */
+/* The nodes that are seen, in place of what was there. */
 void filter_walk(const struct filter *filter, const struct filter_cells *cells, const struct filter_walk *walk,
                  struct filter_nodes *nodes);
 
-/* After filter_walk(): adds the nodes of what isn't seen. */
-void filter_walk_rest(const struct filter *filter, const struct filter_cells *cells, const struct filter_walk *walk,
+/* Those of the pool, seen or not. */
+void filter_walk_pool(const struct filter *filter, const struct filter_cells *cells, const struct filter_walk *walk,
                       struct filter_nodes *nodes);
 
 void filter_nodes_free(struct filter_nodes *nodes);
