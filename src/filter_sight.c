@@ -97,7 +97,7 @@ static bool is_open(const struct sight_box *box, int dx, int dy, int size, const
     uint8_t most = 0;
     if (box->gaps && (eye->blind - away) * eye->fade < 1)
         return false;
-    if (box->low[0] > box->high[0])
+    if (sight_box_is_empty(box))
         return true;
     const float low[4] = {box->low[0], box->low[1], box->low[2], box->low[3]};
     const float high[4] = {box->high[0], box->high[1], box->high[2], box->high[3]};
@@ -276,7 +276,7 @@ static void march(const struct sight_field *field, int x, int y, int step, int l
             const ptrdiff_t index = band * field->row + tile * field->column;
             uint8_t *shares = map + index * SIGHT_TILE_AREA;
             _Alignas(64) uint8_t found[SIGHT_TILE_AREA];
-            if (field->tiles[index].empty)
+            if (sight_box_is_empty(&field->boxes[index]))
                 continue;
             if (clear_from <= tile && tile < clear_end) {
                 memset(shares, 0, SIGHT_TILE_AREA);

@@ -33,7 +33,6 @@ struct sight_tile {
     float cells[5][FILTER_LANES];
     float off[4]; /* of a row of cells: no tap is farther from where its cell's mean and the row's slope put it;
                      INFINITY: some are taps, and some aren't */
-    bool empty;   /* none is a tap */
 };
 
 /* Bounds of the taps of a square in x, y, z and w; low above high where there are none. */
@@ -41,6 +40,12 @@ struct sight_box {
     float low[4], high[4];
     bool gaps; /* some of its pixels aren't taps */
 };
+
+/* Whether none is a tap. */
+static inline bool sight_box_is_empty(const struct sight_box *box)
+{
+    return box->low[0] > box->high[0];
+}
 
 /* The picture by rows, or by columns (`turned`: all that is of columns and rows is exchanged). */
 struct sight_field {

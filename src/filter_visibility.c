@@ -84,11 +84,8 @@ static void tile_fill(const struct filter *filter, int left, int top, struct sig
         box_add(box, at, at, false);
         counts[t / CELL_ROW]++;
     }
-    tile->empty = true;
-    for (int row = 0; row < 4; row++) {
-        tile->empty = tile->empty && counts[row] == 0;
+    for (int row = 0; row < 4; row++)
         tile->off[row] = counts[row] == 0 ? 0 : counts[row] == CELL_ROW ? row_off(tile, taps, row) : INFINITY;
-    }
 }
 
 static void tiles_fill(void *context, int first, int end)
